@@ -1,0 +1,98 @@
+//! The plane and space, behind one trait.
+
+use std::fmt::Debug;
+
+use glam::{DMat2, DMat3, DVec2, DVec3};
+
+use crate::{Angular, Inertia, Matrix, PlanarRotation, Rotation, SpatialRotation, SymmetricTensor, Vector, inertia};
+
+/// What differs between mechanics in the plane and in space.
+pub trait Dim: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
+    /// Position, velocity, force: 2 or 3 components.
+    type Vector: Vector;
+    /// Rate of turn, torque: a number or a vector.
+    type Angular: Angular;
+    /// Body axes to world axes.
+    type Rotation: Rotation<Self::Angular, Vector = Self::Vector>;
+    /// Inertia about the centre of mass, or its inverse.
+    type Inertia: Inertia<Self::Angular, Self::Rotation>;
+    /// A matrix over `Vector`, such as the compliance of a contact.
+    type Matrix: Matrix<Self::Vector>;
+
+    /// r × f: the torque of a force at an arm; also the angular impulse of an impulse.
+    fn torque(arm: Self::Vector, force: Self::Vector) -> Self::Angular;
+
+    /// ω × r: the velocity of a point at an arm of a turning body.
+    fn spin(angular_velocity: Self::Angular, arm: Self::Vector) -> Self::Vector;
+
+    /// The contact frame of a unit normal: columns normal, then tangents. In the plane the tangent is (n_y, −n_x).
+    fn contact_frame(normal: Self::Vector) -> Self::Matrix;
+
+    /// Rotation and rate of turn after one step without torque; see the implicit midpoint rule in the source.
+    fn turn_freely(
+        rotation: Self::Rotation,
+        inertia: &Self::Inertia,
+        inverse_inertia: &Self::Inertia,
+        angular_velocity: Self::Angular,
+        dt: f64,
+    ) -> (Self::Rotation, Self::Angular) {
+        inertia::turn_freely(rotation, inertia, inverse_inertia, angular_velocity, dt)
+    }
+}
+
+/// Mechanics in the plane: one angle, counter-clockwise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Planar;
+
+impl Dim for Planar {
+    type Vector = DVec2;
+    type Angular = f64;
+    type Rotation = PlanarRotation;
+    type Inertia = f64;
+    type Matrix = DMat2;
+
+    #[inline]
+    fn torque(arm: DVec2, force: DVec2) -> f64 {
+        arm.perp_dot(force)
+    }
+
+    #[inline]
+    fn spin(angular_velocity: f64, arm: DVec2) -> DVec2 {
+        DVec2::new(-angular_velocity * arm.y, angular_velocity * arm.x)
+    }
+
+    #[inline]
+    fn contact_frame(normal: DVec2) -> DMat2 {
+        DMat2::from_cols(normal, DVec2::new(normal.y, -normal.x))
+    }
+}
+
+/// Mechanics in space: right-handed axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Spatial;
+
+impl Dim for Spatial {
+    type Vector = DVec3;
+    type Angular = DVec3;
+    type Rotation = SpatialRotation;
+    type Inertia = SymmetricTensor;
+    type Matrix = DMat3;
+
+    #[inline]
+    fn torque(arm: DVec3, force: DVec3) -> DVec3 {
+        arm.cross(force)
+    }
+
+    #[inline]
+    fn spin(angular_velocity: DVec3, arm: DVec3) -> DVec3 {
+        angular_velocity.cross(arm)
+    }
+
+    fn contact_frame(normal: DVec3) -> DMat3 {
+        // Any tangent will do, as long as it is a continuous function of the normal almost everywhere and never degenerate.
+        let helper = if normal.x.abs() < 0.6 { DVec3::X } else { DVec3::Y };
+        let tangent = normal.cross(helper);
+        let tangent = tangent * (1.0 / tangent.length());
+        DMat3::from_cols(normal, tangent, normal.cross(tangent))
+    }
+}

@@ -1,0 +1,175 @@
+//! Rotations from body to world axes.
+
+use std::fmt::Debug;
+
+use glam::{DMat2, DMat3, DQuat, DVec2, DVec3};
+
+use crate::{Angular, Linear, trig};
+
+/// A rotation from body to world axes, driven by an angular quantity `W`.
+pub trait Rotation<W: Angular>: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
+    /// The vectors it turns.
+    type Vector;
+
+    /// Whether inertia looks the same after any rotation: true in the plane.
+    const INERTIA_IS_CONSTANT: bool;
+
+    /// Body axes to world axes.
+    fn rotate(&self, vector: Self::Vector) -> Self::Vector;
+
+    /// World axes to body axes.
+    fn unrotate(&self, vector: Self::Vector) -> Self::Vector;
+
+    /// This rotation followed by a turn about a fixed world axis: exp(angle) R [rad].
+    fn turned(&self, angle: W) -> Self;
+
+    /// Whether no part of it is infinite or NaN.
+    fn is_finite(&self) -> bool;
+}
+
+/// A rotation of the plane: its angle, accumulated over turns, with cosine and sine kept beside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanarRotation {
+    angle: f64,
+    cos: f64,
+    sin: f64,
+}
+
+impl PlanarRotation {
+    /// No rotation.
+    pub const IDENTITY: Self = Self { angle: 0.0, cos: 1.0, sin: 0.0 };
+
+    /// Rotation by an angle, counter-clockwise [rad].
+    pub fn from_angle(angle: f64) -> Self {
+        let (sin, cos) = trig::sin_cos(angle);
+        Self { angle, cos, sin }
+    }
+
+    /// Rotation by an angle, counter-clockwise [°].
+    pub fn from_degrees(degrees: f64) -> Self {
+        Self::from_angle(degrees.to_radians())
+    }
+
+    /// The angle, accumulated over turns (R2) [rad].
+    #[inline]
+    pub fn angle(&self) -> f64 {
+        self.angle
+    }
+
+    /// Cosine of the angle [1].
+    #[inline]
+    pub fn cos(&self) -> f64 {
+        self.cos
+    }
+
+    /// Sine of the angle [1].
+    #[inline]
+    pub fn sin(&self) -> f64 {
+        self.sin
+    }
+
+    /// The rotation matrix R(a), body to world (R3).
+    pub fn to_matrix(&self) -> DMat2 {
+        DMat2::from_cols(DVec2::new(self.cos, self.sin), DVec2::new(-self.sin, self.cos))
+    }
+}
+
+impl Default for PlanarRotation {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+impl Rotation<f64> for PlanarRotation {
+    type Vector = DVec2;
+
+    const INERTIA_IS_CONSTANT: bool = true;
+
+    #[inline]
+    fn rotate(&self, v: DVec2) -> DVec2 {
+        DVec2::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
+    }
+
+    #[inline]
+    fn unrotate(&self, v: DVec2) -> DVec2 {
+        DVec2::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x)
+    }
+
+    fn turned(&self, angle: f64) -> Self {
+        // A body that does not turn keeps its bits, and costs no trigonometry.
+        if angle == 0.0 { *self } else { Self::from_angle(self.angle + angle) }
+    }
+
+    fn is_finite(&self) -> bool {
+        self.angle.is_finite()
+    }
+}
+
+/// A rotation of space, as a unit quaternion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpatialRotation {
+    quaternion: DQuat,
+}
+
+impl SpatialRotation {
+    /// No rotation.
+    pub const IDENTITY: Self = Self { quaternion: DQuat::IDENTITY };
+
+    /// The rotation of a quaternion, made unit; `None` for zero or not finite.
+    pub fn try_from_quaternion(quaternion: DQuat) -> Option<Self> {
+        let length = quaternion.length();
+        (length.is_finite() && length > 0.0).then(|| Self { quaternion: quaternion * (1.0 / length) })
+    }
+
+    /// Rotation about an axis through the length of the vector [rad].
+    pub fn from_rotation_vector(angle: DVec3) -> Self {
+        Self::IDENTITY.turned(angle)
+    }
+
+    /// The unit quaternion, body to world.
+    #[inline]
+    pub fn quaternion(&self) -> DQuat {
+        self.quaternion
+    }
+
+    /// The rotation matrix, body to world.
+    pub fn to_matrix(&self) -> DMat3 {
+        DMat3::from_quat(self.quaternion)
+    }
+}
+
+impl Default for SpatialRotation {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+impl Rotation<DVec3> for SpatialRotation {
+    type Vector = DVec3;
+
+    const INERTIA_IS_CONSTANT: bool = false;
+
+    #[inline]
+    fn rotate(&self, v: DVec3) -> DVec3 {
+        self.quaternion * v
+    }
+
+    #[inline]
+    fn unrotate(&self, v: DVec3) -> DVec3 {
+        self.quaternion.conjugate() * v
+    }
+
+    fn turned(&self, angle: DVec3) -> Self {
+        let full = Linear::length(angle);
+        let (sin, cos) = trig::sin_cos(0.5 * full);
+        // sin(½a)/a, by its series where the quotient would lose digits: the first term left out is below a⁴/3840.
+        let ratio = if full < 1e-4 { 0.5 - full * full / 48.0 } else { sin / full };
+        let v = angle * ratio;
+        let product = DQuat::from_xyzw(v.x, v.y, v.z, cos) * self.quaternion;
+        Self { quaternion: product * (1.0 / product.length()) }
+    }
+
+    fn is_finite(&self) -> bool {
+        self.quaternion.is_finite()
+    }
+}
