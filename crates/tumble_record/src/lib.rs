@@ -1,1 +1,26 @@
-#![doc = "..."]
+//! What happened: plain data about a finished run, and everything that is made of it.
+//!
+//! A [`Recording`] holds the bodies with their shapes, samples of their states and contacts, one audit row per step and
+//! the messages of touch. It knows nothing of the world that filled it. From it come
+//!
+//! - tables: [`tables`] writes `trajectory.csv`, `contacts.csv`, `audit.csv` and `touches.csv`,
+//! - numbers: [`Summary`] is `summary.json`, [`Fingerprint`] condenses a state into 32 hex digits,
+//! - curves: a [`Channel`] names a quantity (`y:ball`), [`plot`] draws it,
+//! - pictures that move: [`replay`] is one HTML file that opens offline,
+//! - files: [`OutputFolder`] makes all of them appear whole or not at all.
+//!
+//! SI units, world frame unless said otherwise; angles in radians, accumulated over turns.
+
+mod files;
+mod fingerprint;
+mod recording;
+mod summary;
+pub mod tables;
+
+pub use files::{Completeness, FileAction, FileError, OutputFolder, PreparedFiles, write_file};
+pub use fingerprint::{Fingerprint, FingerprintHasher, ParseFingerprintError};
+pub use recording::{
+    AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, Touch,
+    TouchPhase,
+};
+pub use summary::{Summary, energy_drift};

@@ -1,0 +1,257 @@
+//! The plain data of a run: bodies, samples, audit rows, touches.
+
+use std::borrow::Cow;
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use crate::fingerprint::{Fingerprint, FingerprintHasher};
+
+/// Everything that is kept of one run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Recording {
+    /// Name of the scene.
+    pub scene: String,
+    /// One sentence about the scene; may be empty.
+    pub about: String,
+    /// Name of the contact model, as on the command line (`impulse`).
+    pub contact: String,
+    /// Length of a step [s].
+    pub dt: f64,
+    /// Typical size of a body, to which tolerances are relative [m].
+    pub length_scale: f64,
+    /// All bodies that were ever in the world; everything else refers to them by their index here.
+    pub bodies: Vec<BodyRecord>,
+    /// States and contacts at the sampled steps, in the order of time.
+    pub samples: Vec<Sample>,
+    /// Sums over the whole world, one row per step; empty when audits were off.
+    pub audit: Vec<AuditRow>,
+    /// Begin and end of touch, in the order they were sent.
+    pub touches: Vec<Touch>,
+}
+
+/// What does not change about a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodyRecord {
+    /// Stable id; decides every order that can touch a number.
+    pub id: u64,
+    /// Unique name.
+    pub name: String,
+    /// Who moves it.
+    pub kind: BodyKind,
+    /// Mass; infinite for static and kinematic bodies [kg].
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass; infinite for static and kinematic bodies [kg·m²].
+    pub inertia: f64,
+    /// Shapes attached to it.
+    pub shapes: Vec<ShapeRecord>,
+}
+
+/// Who moves a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum BodyKind {
+    /// Forces do.
+    Dynamic,
+    /// Its prescribed velocity does.
+    Kinematic,
+    /// Nobody does.
+    Static,
+}
+
+/// A shape on a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShapeRecord {
+    /// Its outline in the body frame: origin at the centre of mass, turning with the body.
+    pub geometry: Geometry,
+    /// Whether it only reports touches and never pushes.
+    pub sensor: bool,
+}
+
+/// Outline of a shape, in the body frame [m].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Geometry {
+    /// Straight rod with round ends; radius 0 is the thin rod.
+    Rod {
+        /// One end of the axis [m].
+        from: DVec2,
+        /// Other end of the axis [m].
+        to: DVec2,
+        /// Distance from the axis to the surface [m].
+        radius: f64,
+    },
+    /// Filled circle.
+    Disc {
+        /// Centre [m].
+        centre: DVec2,
+        /// Radius [m].
+        radius: f64,
+    },
+    /// Convex polygon.
+    Polygon {
+        /// Corners, counter-clockwise [m].
+        points: Vec<DVec2>,
+    },
+    /// Everything on the far side of a line.
+    HalfPlane {
+        /// Any point of the surface [m].
+        point: DVec2,
+        /// Unit vector out of the solid [1].
+        normal: DVec2,
+    },
+}
+
+/// The world at one sampled step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Steps taken so far; 0 is the start.
+    pub step: u64,
+    /// Simulated time [s].
+    pub time: f64,
+    /// State of each body, in the order of [`Recording::bodies`]; `None`, or missing at the end, while a body is not in the world.
+    pub states: Vec<Option<BodyState>>,
+    /// Touching points.
+    pub contacts: Vec<ContactRecord>,
+}
+
+impl Sample {
+    /// Returns the state of a body by its index, or nothing while it is not in the world.
+    pub fn state(&self, body: usize) -> Option<&BodyState> {
+        self.states.get(body)?.as_ref()
+    }
+}
+
+/// Where a body is and how it moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BodyState {
+    /// Centre of mass [m].
+    pub position: DVec2,
+    /// Angle from the world axes to the body axes, accumulated over turns [rad].
+    pub angle: f64,
+    /// Velocity of the centre of mass [m/s].
+    pub velocity: DVec2,
+    /// Rate of turning, counter-clockwise [rad/s].
+    pub angular_velocity: f64,
+}
+
+/// One touching point between two bodies.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ContactRecord {
+    /// Index of the body with the smaller id.
+    pub a: usize,
+    /// Index of the other body.
+    pub b: usize,
+    /// Where they touch [m].
+    pub point: DVec2,
+    /// Unit vector from a to b [1].
+    pub normal: DVec2,
+    /// Gap along the normal, negative when overlapping [m].
+    pub separation: f64,
+    /// Impulse on b along the normal, summed over the step [N·s].
+    pub normal_impulse: f64,
+    /// Impulse on b along the tangent (n_y, −n_x), summed over the step [N·s].
+    pub tangent_impulse: f64,
+    /// Kind of contact: the name of a variant of the collision layer's closed list.
+    pub kind: Cow<'static, str>,
+}
+
+impl ContactRecord {
+    /// Returns the unit tangent (n_y, −n_x): the normal turned a quarter clockwise [1].
+    pub fn tangent(&self) -> DVec2 {
+        DVec2::new(self.normal.y, -self.normal.x)
+    }
+
+    /// Returns the impulse on b, summed over the step [N·s].
+    pub fn impulse_on_b(&self) -> DVec2 {
+        self.normal * self.normal_impulse + self.tangent() * self.tangent_impulse
+    }
+}
+
+/// Sums over the whole world after one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AuditRow {
+    /// Steps taken so far; 0 is the start.
+    pub step: u64,
+    /// Simulated time [s].
+    pub time: f64,
+    /// Kinetic energy of the dynamic bodies [J].
+    pub kinetic: f64,
+    /// Potential energy of gravity and springs [J].
+    pub potential: f64,
+    /// Kinetic plus potential energy [J].
+    pub total: f64,
+    /// Momentum [kg·m/s].
+    pub momentum: DVec2,
+    /// Angular momentum about the world origin [kg·m²/s].
+    pub angular_momentum: f64,
+    /// Largest overlap of a touching pair, 0 when none overlaps [m].
+    pub deepest_overlap: f64,
+    /// Number of touching points.
+    pub contacts: u64,
+    /// Sweeps of the contact solver, if one ran.
+    pub iterations: Option<u64>,
+    /// What the contact solver left unsolved, in its own measure.
+    pub residual: Option<f64>,
+}
+
+/// Two bodies that began or ceased to touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum TouchPhase {
+    /// They did not touch before this step.
+    Begin,
+    /// They no longer touch.
+    End,
+}
+
+/// Message that two bodies began or ceased to touch.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Touch {
+    /// Step in which it was found.
+    pub step: u64,
+    /// Time at the end of that step [s].
+    pub time: f64,
+    /// Index of the body with the smaller id.
+    pub a: usize,
+    /// Index of the other body.
+    pub b: usize,
+    /// Begin or end.
+    pub phase: TouchPhase,
+    /// Whether a sensor was involved, so that no force acts.
+    pub sensor: bool,
+}
+
+impl Recording {
+    /// Returns the index of the body of this name.
+    pub fn body(&self, name: &str) -> Option<usize> {
+        self.bodies.iter().position(|body| body.name == name)
+    }
+
+    /// Returns the names of all bodies, in the order of the recording.
+    pub fn body_names(&self) -> impl Iterator<Item = &str> {
+        self.bodies.iter().map(|body| body.name.as_str())
+    }
+
+    /// Returns the state of a body over time: (sample, state) for each sample in which it is in the world.
+    pub fn states(&self, body: usize) -> impl Iterator<Item = (&Sample, &BodyState)> {
+        self.samples.iter().filter_map(move |sample| Some((sample, sample.state(body)?)))
+    }
+
+    /// Returns the fingerprint of a sample: its step, then id, pose and velocity of each body in the order of ids.
+    pub fn fingerprint(&self, sample: &Sample) -> Fingerprint {
+        let mut present: Vec<(u64, &BodyState)> =
+            self.bodies.iter().enumerate().filter_map(|(index, body)| Some((body.id, sample.state(index)?))).collect();
+        present.sort_by_key(|(id, _)| *id);
+        let mut hasher = FingerprintHasher::new(sample.step);
+        for (id, state) in present {
+            hasher.body(id, &state.numbers());
+        }
+        hasher.finish()
+    }
+}
+
+impl BodyState {
+    /// Returns x, y, angle, vx, vy, ω: the order of the columns of `trajectory.csv` and of the fingerprint.
+    pub fn numbers(&self) -> [f64; 6] {
+        let BodyState { position, angle, velocity, angular_velocity } = *self;
+        [position.x, position.y, angle, velocity.x, velocity.y, angular_velocity]
+    }
+}
