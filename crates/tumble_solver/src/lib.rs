@@ -1,1 +1,23 @@
-#![doc = "..."]
+//! Contact models on plain slices of bodies and contact points.
+//!
+//! A model is told which points touch and answers with forces or impulses; it never searches for contacts and has not heard of an
+//! entity. All of them read the same two records, [`SolverBody`] and [`ContactRow`], so that one scene can run under each:
+//!
+//! | Model | forces | velocity filter | impacts |
+//! |---|---|---|---|
+//! | [`penalty`] | spring and damper per point | – | – |
+//! | one-by-one impulse | – | [`filter`]: touching contacts, accumulated impulses | [`impact`]: colliding contacts, worst first, repeatedly |
+//!
+//! [`position`] is the position filter of the impulse model: no gap closes beyond touch within a step.
+
+pub mod body;
+pub mod contact;
+pub mod filter;
+pub mod impact;
+pub mod penalty;
+pub mod position;
+mod report;
+
+pub use body::SolverBody;
+pub use contact::{ContactRow, Slip, Surface};
+pub use report::{Ending, Report};

@@ -1,0 +1,221 @@
+//! One-by-one impulses: colliding contacts, worst first, again and again until none is colliding (L5, L6).
+//!
+//! Each contact that approaches gets the impulse that turns its approach round, as if it were alone:
+//!
+//! ```text
+//! v_n⁺ = −ε v_n⁻                                          Newton's law of restitution (L5)
+//! sticking:  v_t⁺ = 0           if that needs |j_t| ≤ μ_s j_n
+//! sliding:   j_t = μ_k j_n d    with d against the final slip, otherwise (L10)
+//! ```
+//!
+//! both with the full compliance K of the point, so that the tangential impulse feeds back into the normal one. Without friction
+//! this is the lecture's j = −(1 + ε) v_n⁻ / K_nn.
+//!
+//! Good at: single impacts, chains (Newton's cradle), exactness. Bad at: simultaneous impacts of one body, where the answer
+//! depends on the order (the worst first; of equals, the first row). Known limit: Newton's law with friction can create energy in
+//! rare configurations (Kane's paradox; Wang and Mason 1992).
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use tumble_math::{Dim, Linear, Matrix, Vector};
+
+use crate::contact::tangential;
+use crate::{ContactRow, Ending, Report, SolverBody, Surface};
+
+/// When to begin and when to give up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpactSettings {
+    /// A point that approaches faster than this is colliding [m/s].
+    pub colliding_above: f64,
+    /// Most impulses per contact point, on average [1].
+    pub impulses_per_contact: u32,
+}
+
+/// How the approach of one point is to be read.
+///
+/// Velocities at the end of a step contain a whole step of acceleration, also for a point that met the surface on the way, and
+/// their round-off and solver error for a point that rests. Restitution must not answer either.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Approach {
+    /// Added to the approach speed of the first impulse before restitution reads it [m/s].
+    pub correction: f64,
+    /// Extra separating speed of a rebound, ½|a|Δt for symplectic Euler whose velocities run half a step ahead of its positions;
+    /// a rebound weaker than this would not leave the surface within the step, and is rest [m/s].
+    pub half_step: f64,
+}
+
+/// Resolves all colliding contacts of `rows`.
+///
+/// `approaches[i]` corrects the first impulse of point i; `given[i]` is set to the sum of impulses at point i, in its
+/// contact frame [N·s]. The report counts impulses; its residual is the fastest approach left.
+pub fn resolve_one_by_one<D: Dim>(
+    bodies: &mut [SolverBody<D>],
+    rows: &[ContactRow<D>],
+    approaches: &mut [Approach],
+    given: &mut Vec<D::Vector>,
+    settings: &ImpactSettings,
+) -> Report {
+    given.clear();
+    given.resize(rows.len(), D::Vector::ZERO);
+    let mut queue = BinaryHeap::new();
+    let mut latest = vec![0_u32; rows.len()];
+    let mut report = Report::default();
+    for (i, row) in rows.iter().enumerate() {
+        push_if_colliding(&mut queue, bodies, row, i, 0, settings);
+    }
+    if queue.is_empty() {
+        return report;
+    }
+
+    let neighbours = Neighbours::of(bodies, rows);
+    let cap = (rows.len() as u64 * u64::from(settings.impulses_per_contact)).min(u64::from(u32::MAX)) as u32;
+    while let Some(worst) = queue.pop() {
+        if worst.version != latest[worst.row] {
+            continue;
+        }
+        if report.iterations == cap {
+            report.ending = Ending::NotConverged;
+            break;
+        }
+        report.iterations += 1;
+        let row = &rows[worst.row];
+        let velocity = row.relative_velocity(bodies);
+        let rebound = rebound_speed(-velocity[0], row.surface.restitution, &mut approaches[worst.row]);
+        let impulse = impulse_for(&row.compliance(bodies), velocity, rebound, &row.surface);
+        row.apply(bodies, impulse);
+        given[worst.row] += impulse;
+        for &i in neighbours.of_bodies(row.a, row.b) {
+            let i = i as usize;
+            latest[i] += 1;
+            push_if_colliding(&mut queue, bodies, &rows[i], i, latest[i], settings);
+        }
+    }
+    report.residual = rows.iter().map(|row| -row.separating_speed(bodies)).fold(0.0, f64::max);
+    report
+}
+
+/// Separating speed after an impact at `approach` speed; uses up the correction [m/s].
+fn rebound_speed(approach: f64, restitution: f64, reading: &mut Approach) -> f64 {
+    let Approach { correction, half_step } = std::mem::take(reading);
+    let rebound = restitution * (approach + correction).max(0.0);
+    if rebound > half_step { rebound + half_step } else { 0.0 }
+}
+
+/// The impulse, in the contact frame, after which a point separates at `rebound` and sticks or slides [N·s].
+///
+/// `compliance` is K, `velocity` the relative velocity before, both in the contact frame.
+pub fn impulse_for<V: Vector, M: Matrix<V>>(compliance: &M, velocity: V, rebound: f64, surface: &Surface) -> V {
+    let target = V::unit(0) * rebound;
+    let sticking = compliance.try_inverse().map(|inverse| inverse.apply(target - velocity));
+    if let Some(impulse) = sticking
+        && tangential(impulse).length() <= surface.static_friction * impulse[0]
+    {
+        return impulse;
+    }
+
+    let slide = |friction_direction: V| {
+        let direction = V::unit(0) + friction_direction * surface.kinetic_friction;
+        let yielding = compliance.apply(direction)[0];
+        (yielding > 0.0).then(|| direction * ((rebound - velocity[0]) / yielding))
+    };
+    let Some(frictionless) = slide(V::ZERO) else { return V::ZERO };
+    // Friction acts against the final slip, which friction itself changes: begin with the slip that would be without it.
+    let mut direction = against(velocity + compliance.apply(frictionless), velocity);
+    for _ in 0..8 {
+        let Some(impulse) = slide(direction) else { break };
+        let slip = tangential(velocity + compliance.apply(impulse));
+        let consistent = against(slip, slip);
+        if slip.dot(direction) <= 0.0 && (consistent - direction).length() < 1e-12 || slip == V::ZERO {
+            return impulse;
+        }
+        direction = consistent;
+    }
+    // Neither slides consistently (possible for μ_k > μ_s, or where friction jams the point): it sticks.
+    sticking.filter(|impulse| impulse[0] > 0.0).unwrap_or(frictionless)
+}
+
+/// Unit tangent against a slip; against `fallback` where there is none.
+fn against<V: Vector>(slip: V, fallback: V) -> V {
+    let direction = tangential(slip).try_normalize().or_else(|| tangential(fallback).try_normalize());
+    -direction.unwrap_or(V::ZERO)
+}
+
+/// A colliding point in the queue; the greatest approaches fastest.
+struct Colliding {
+    approach: f64,
+    row: usize,
+    version: u32,
+}
+
+impl Ord for Colliding {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.approach.total_cmp(&other.approach).then(other.row.cmp(&self.row))
+    }
+}
+
+impl PartialOrd for Colliding {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Colliding {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Colliding {}
+
+fn push_if_colliding<D: Dim>(
+    queue: &mut BinaryHeap<Colliding>,
+    bodies: &[SolverBody<D>],
+    row: &ContactRow<D>,
+    index: usize,
+    version: u32,
+    settings: &ImpactSettings,
+) {
+    let approach = -row.separating_speed(bodies);
+    if approach > settings.colliding_above {
+        queue.push(Colliding { approach, row: index, version });
+    }
+}
+
+/// The rows at each body that can move, so that an impulse updates only those.
+struct Neighbours {
+    starts: Vec<u32>,
+    rows: Vec<u32>,
+}
+
+impl Neighbours {
+    fn of<D: Dim>(bodies: &[SolverBody<D>], rows: &[ContactRow<D>]) -> Self {
+        let movable = |body: u32| {
+            let body = &bodies[body as usize];
+            body.inverse_mass != D::Vector::ZERO || body.inverse_inertia != D::Inertia::default()
+        };
+        let ends = |row: &ContactRow<D>| [row.a, row.b].into_iter().filter(|body| movable(*body));
+        let mut starts = vec![0_u32; bodies.len() + 1];
+        for body in rows.iter().flat_map(ends) {
+            starts[body as usize + 1] += 1;
+        }
+        for i in 0..bodies.len() {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut sorted = vec![0_u32; starts[bodies.len()] as usize];
+        for (i, row) in rows.iter().enumerate() {
+            for body in ends(row) {
+                sorted[next[body as usize] as usize] = i as u32;
+                next[body as usize] += 1;
+            }
+        }
+        Self { starts, rows: sorted }
+    }
+
+    /// Rows at either body; a row between both comes twice, which costs a look and changes nothing.
+    fn of_bodies(&self, a: u32, b: u32) -> impl Iterator<Item = &u32> {
+        let of = |body: u32| &self.rows[self.starts[body as usize] as usize..self.starts[body as usize + 1] as usize];
+        of(a).iter().chain(of(b))
+    }
+}
