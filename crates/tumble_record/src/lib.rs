@@ -11,12 +11,19 @@
 //!
 //! SI units, world frame unless said otherwise; angles in radians, accumulated over turns.
 
+mod channel;
 mod files;
 mod fingerprint;
+mod names;
+pub mod plot;
 mod recording;
 mod summary;
 pub mod tables;
+mod thin;
 
+pub use channel::{
+    BodyQuantity, Channel, ChannelError, MOST_CURVES, Series, WorldQuantity, body_quantity_names, world_names,
+};
 pub use files::{Completeness, FileAction, FileError, OutputFolder, PreparedFiles, write_file};
 pub use fingerprint::{Fingerprint, FingerprintHasher, ParseFingerprintError};
 pub use recording::{

@@ -1,0 +1,221 @@
+//! Plots: curves over time as SVG.
+//!
+//! A white page, a light grid, units on the axes, a legend beside the curves when there are several. Long curves are
+//! thinned without losing a peak; where a value is not finite, the curve has a gap.
+
+use plotters::backend::SVGBackend;
+use plotters::chart::{ChartBuilder, ChartContext};
+use plotters::coord::Shift;
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::types::RangedCoordf64;
+use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
+use plotters::element::{PathElement, Rectangle, Text};
+use plotters::series::LineSeries;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, IntoTextStyle, RGBColor, ShapeStyle, TextStyle, WHITE};
+
+use crate::channel::{Channel, ChannelError, Series, WorldQuantity, world_series};
+use crate::recording::Recording;
+use crate::thin::keep_extremes;
+
+/// What is drawn: curves, and the words around them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plot {
+    /// Heading.
+    pub title: String,
+    /// What the vertical axis shows, with its unit.
+    pub value_label: String,
+    /// The curves, each with its label for the legend.
+    pub series: Vec<Series>,
+}
+
+/// Size of the picture [px].
+const SIZE: (u32, u32) = (960, 540);
+/// Colours that people of every colour vision can tell apart (Okabe and Ito 2008), then darker ones for long lists.
+const COLORS: [RGBColor; 12] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(60, 60, 60),
+    RGBColor(148, 103, 189),
+    RGBColor(140, 86, 75),
+    RGBColor(127, 127, 0),
+    RGBColor(0, 70, 110),
+    RGBColor(160, 30, 60),
+];
+const INK: RGBColor = RGBColor(40, 44, 52);
+const FAINT_INK: RGBColor = RGBColor(110, 116, 126);
+const GRID: RGBColor = RGBColor(226, 229, 234);
+const FONT: &str = "system-ui, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif";
+
+type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+type DrawResult = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+
+impl Plot {
+    /// Shows kinetic, potential and total energy over time: `energy.svg`.
+    pub fn energy(recording: &Recording) -> Self {
+        let curves = [
+            (WorldQuantity::Kinetic, "kinetic"),
+            (WorldQuantity::Potential, "potential"),
+            (WorldQuantity::Total, "total"),
+        ];
+        let series =
+            curves.map(|(quantity, label)| Series { label: label.to_owned(), ..world_series(recording, quantity) });
+        Self { title: heading(recording, "energy"), value_label: "energy [J]".to_owned(), series: series.into() }
+    }
+
+    /// Shows a channel over time.
+    pub fn channel(recording: &Recording, channel: &Channel) -> Result<Self, ChannelError> {
+        let value_label = match channel.unit() {
+            "1" => channel.name().replace('_', " "),
+            unit => format!("{} [{unit}]", channel.name().replace('_', " ")),
+        };
+        Ok(Self { title: heading(recording, &channel.title()), value_label, series: channel.series(recording)? })
+    }
+
+    /// Draws the plot as the text of an SVG file.
+    pub fn to_svg(&self) -> String {
+        let mut svg = String::new();
+        let drawn = self.draw(SVGBackend::with_string(&mut svg, SIZE).into_drawing_area());
+        drawn.expect("drawing into memory cannot fail");
+        svg
+    }
+
+    fn draw(&self, page: Page<'_>) -> DrawResult {
+        page.fill(&WHITE)?;
+        page.draw(&Text::new(clean(&self.title), (84, 18), (FONT, 19).into_text_style(&page).color(&INK)))?;
+
+        let legend_width = if self.series.len() > 1 { self.legend_width() } else { 0 };
+        let (page, legend) = page.split_horizontally(SIZE.0 - legend_width);
+        let times = padded(span(self.series.iter().flat_map(|series| &series.times)), 0.0);
+        let values = padded(span(self.series.iter().flat_map(|series| &series.values)), 0.06);
+        let mut chart = ChartBuilder::on(&page)
+            .margin_top(54)
+            .margin_right(26)
+            .margin_bottom(14)
+            .margin_left(14)
+            .x_label_area_size(46)
+            .y_label_area_size(70)
+            .build_cartesian_2d(times.0..times.1, values.0..values.1)?;
+        self.draw_axes(&mut chart, times, values)?;
+        for (index, series) in self.series.iter().enumerate() {
+            let style = ShapeStyle::from(&COLORS[index % COLORS.len()]).stroke_width(2);
+            for stretch in finite_stretches(series) {
+                // A lone point has no line; a short dash keeps it visible.
+                let width = if stretch.len() == 1 { (times.1 - times.0) * 0.004 } else { 0.0 };
+                let dash = stretch.last().map(|&(time, value)| (time + width, value)).filter(|_| width > 0.0);
+                chart.draw_series(LineSeries::new(stretch.into_iter().chain(dash), style))?;
+            }
+        }
+        if legend_width > 0 {
+            self.draw_legend(&legend)?;
+        }
+        legend.present()
+    }
+
+    fn draw_axes(&self, chart: &mut Chart<'_>, times: (f64, f64), values: (f64, f64)) -> DrawResult {
+        let ink: TextStyle<'_> = (FONT, 14).into_text_style(chart.plotting_area()).color(&INK);
+        let faint_ink: TextStyle<'_> = (FONT, 13).into_text_style(chart.plotting_area()).color(&FAINT_INK);
+        chart
+            .configure_mesh()
+            .x_labels(10)
+            .y_labels(8)
+            .x_label_formatter(&|time| tick(*time, times))
+            .y_label_formatter(&|value| tick(*value, values))
+            .x_desc("time [s]")
+            .y_desc(clean(&self.value_label))
+            .label_style(faint_ink)
+            .axis_desc_style(ink)
+            .bold_line_style(GRID)
+            .light_line_style(WHITE.mix(0.0))
+            .axis_style(FAINT_INK)
+            .draw()?;
+        if values.0 < 0.0 && values.1 > 0.0 {
+            let zero = PathElement::new(vec![(times.0, 0.0), (times.1, 0.0)], FAINT_INK.mix(0.7));
+            chart.draw_series([zero])?;
+        }
+        Ok(())
+    }
+
+    /// Returns the width of the legend, from the longest label; letters of this font are about 7 px wide.
+    fn legend_width(&self) -> u32 {
+        let longest = self.series.iter().map(|series| clean(&series.label).chars().count()).max().unwrap_or(0);
+        44 + 7 * longest as u32 + 12
+    }
+
+    fn draw_legend(&self, legend: &Page<'_>) -> DrawResult {
+        let style: TextStyle<'_> =
+            (FONT, 13).into_text_style(legend).color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+        for (index, series) in self.series.iter().enumerate() {
+            let y = 66 + 24 * index as i32;
+            legend.draw(&Rectangle::new([(6, y - 2), (30, y + 2)], COLORS[index % COLORS.len()].filled()))?;
+            legend.draw(&Text::new(clean(&series.label), (38, y), style.clone()))?;
+        }
+        Ok(())
+    }
+}
+
+/// Returns the heading of a plot: scene, quantity and contact model.
+fn heading(recording: &Recording, quantity: &str) -> String {
+    let parts = [recording.scene.as_str(), quantity, recording.contact.as_str()];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  ·  ")
+}
+
+/// Makes text fit for a drawing: no control characters, which SVG forbids, and at most 80 letters.
+fn clean(text: &str) -> String {
+    let mut clean: String =
+        text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).take(80).collect();
+    if text.chars().nth(80).is_some() {
+        clean.push('…');
+    }
+    clean
+}
+
+/// Returns the least and the greatest finite number.
+fn span<'a>(numbers: impl Iterator<Item = &'a f64>) -> Option<(f64, f64)> {
+    numbers.filter(|number| number.is_finite()).fold(None, |span, &number| {
+        Some(span.map_or((number, number), |(low, high): (f64, f64)| (low.min(number), high.max(number))))
+    })
+}
+
+/// Widens a span by a share on both sides; a constant or an empty one gets a width it can be drawn with.
+fn padded(span: Option<(f64, f64)>, share: f64) -> (f64, f64) {
+    // Halves keep the widest spans finite.
+    let (low, high) = span.map_or((0.0, 1.0), |(low, high)| (low.max(f64::MIN / 4.0), high.min(f64::MAX / 4.0)));
+    let width = high - low;
+    let rounding = 1e-9 * low.abs().max(high.abs());
+    if width > rounding {
+        (low - share * width, high + share * width)
+    } else {
+        let half = if low == 0.0 && high == 0.0 { 1.0 } else { 0.1 * low.abs().max(high.abs()) };
+        (low - half, high + half)
+    }
+}
+
+/// Writes the number at a tick with the digits that the span of the axis asks for.
+fn tick(value: f64, (low, high): (f64, f64)) -> String {
+    let step = (high - low) / 10.0;
+    // Ticks at a rounding error from zero are zero.
+    let value = if value.abs() < 1e-6 * step { 0.0 } else { value };
+    let largest = low.abs().max(high.abs());
+    if !(1e-4..1e6).contains(&largest) && value != 0.0 {
+        return format!("{value:.3e}").replacen(".000e", "e", 1);
+    }
+    let decimals = (1.0 - step.log10()).ceil().clamp(0.0, 12.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    text.replace('-', "−")
+}
+
+/// Splits a curve where it is not finite, and thins it to what the picture can show.
+fn finite_stretches(series: &Series) -> Vec<Vec<(f64, f64)>> {
+    let count = series.times.len().min(series.values.len());
+    let kept = keep_extremes(count, SIZE.0 as usize, &[&series.values[..count]]);
+    let points: Vec<(f64, f64)> = kept.into_iter().map(|index| (series.times[index], series.values[index])).collect();
+    let stretches = points.split(|(time, value)| !(time.is_finite() && value.is_finite()));
+    stretches.filter(|stretch| !stretch.is_empty()).map(<[_]>::to_vec).collect()
+}
