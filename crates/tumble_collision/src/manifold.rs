@@ -1,0 +1,160 @@
+//! Contact points that share a normal.
+//!
+//! ```text
+//!        b          normal: unit vector from a to b
+//!     ___|___       separation: along the normal, negative when overlapping
+//!     \__^__/       point: midway between the two surfaces
+//!  ______|______
+//!        a
+//! ```
+
+use std::fmt;
+
+use glam::DVec2;
+use tumble_math::Vector;
+
+/// Which kinds of feature meet at a contact point. The list is closed; the names are those of `contacts.csv`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ContactKind {
+    /// A sharp corner (or thin rod's end) on a side.
+    VertexFace,
+    /// A sharp corner on a sharp corner.
+    VertexVertex,
+    /// A disc or a rounded rod's end on a side.
+    RoundFace,
+    /// A disc or a rounded rod's end on a sharp corner.
+    RoundVertex,
+    /// Two discs or rounded ends.
+    RoundRound,
+    /// Two edges that cross in space.
+    EdgeEdge,
+}
+
+impl ContactKind {
+    /// All kinds, in order.
+    pub const ALL: [Self; 6] =
+        [Self::VertexFace, Self::VertexVertex, Self::RoundFace, Self::RoundVertex, Self::RoundRound, Self::EdgeEdge];
+
+    /// The stable name, such as `vertex-face`.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::VertexFace => "vertex-face",
+            Self::VertexVertex => "vertex-vertex",
+            Self::RoundFace => "round-face",
+            Self::RoundVertex => "round-vertex",
+            Self::RoundRound => "round-round",
+            Self::EdgeEdge => "edge-edge",
+        }
+    }
+}
+
+impl fmt::Display for ContactKind {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.as_str())
+    }
+}
+
+/// Which corner of which shape made a point, so that the same physical point is known again in the next step.
+///
+/// The two highest bits say whose corner it is (a's, b's, or one of each); two times fifteen bits hold the corners' numbers.
+/// The side that a corner touches is left out: a point keeps its id when the two shapes swap reference face.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FeatureId(pub u32);
+
+impl FeatureId {
+    const INDEX_BITS: u32 = 15;
+    const INDEX_MASK: u32 = (1 << Self::INDEX_BITS) - 1;
+
+    /// Corner `vertex` of shape a on a side of b.
+    pub const fn vertex_of_a(vertex: usize) -> Self {
+        Self((vertex as u32 & Self::INDEX_MASK) << Self::INDEX_BITS)
+    }
+
+    /// Corner `vertex` of shape b on a side of a.
+    pub const fn vertex_of_b(vertex: usize) -> Self {
+        Self(1 << 30 | vertex as u32 & Self::INDEX_MASK)
+    }
+
+    /// Corner `vertex_a` of a on corner `vertex_b` of b.
+    pub const fn vertices(vertex_a: usize, vertex_b: usize) -> Self {
+        Self(2 << 30 | Self::vertex_of_a(vertex_a).0 | vertex_b as u32 & Self::INDEX_MASK)
+    }
+}
+
+/// One point where two shapes touch, or nearly do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint<V> {
+    /// Midway between the two surfaces, in world axes [m].
+    pub point: V,
+    /// Gap along the normal, negative when overlapping [m].
+    pub separation: f64,
+    /// Which features made it.
+    pub feature: FeatureId,
+    /// What kinds of features those are.
+    pub kind: ContactKind,
+}
+
+/// Up to `N` contact points of a pair, sharing one normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Manifold<V, const N: usize> {
+    /// Unit vector from a to b, in world axes; zero in a manifold without points.
+    pub normal: V,
+    points: [ContactPoint<V>; N],
+    count: u8,
+}
+
+/// The contact of two shapes of the plane: a point, or the two ends of a line.
+pub type PlanarManifold = Manifold<DVec2, 2>;
+
+impl<V: Vector, const N: usize> Manifold<V, N> {
+    const UNUSED: ContactPoint<V> =
+        ContactPoint { point: V::ZERO, separation: 0.0, feature: FeatureId(0), kind: ContactKind::VertexFace };
+
+    /// No contact.
+    pub const EMPTY: Self = Self { normal: V::ZERO, points: [Self::UNUSED; N], count: 0 };
+
+    /// A manifold to which points are added along this normal.
+    pub(crate) fn along(normal: V) -> Self {
+        Self { normal, ..Self::EMPTY }
+    }
+
+    /// Adds a point in the order of feature ids; points beyond the capacity are dropped.
+    pub(crate) fn insert(&mut self, point: ContactPoint<V>) {
+        let count = self.count as usize;
+        if count == N {
+            return;
+        }
+        let place = self.points().iter().position(|other| point.feature < other.feature).unwrap_or(count);
+        self.points.copy_within(place..count, place + 1);
+        self.points[place] = point;
+        self.count += 1;
+    }
+
+    /// The points, in the order of their feature ids.
+    #[inline]
+    pub fn points(&self) -> &[ContactPoint<V>] {
+        &self.points[..self.count as usize]
+    }
+
+    /// Whether there is no point.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// The smallest separation of its points; `None` without points [m].
+    pub fn deepest_separation(&self) -> Option<f64> {
+        self.points().iter().map(|point| point.separation).reduce(f64::min)
+    }
+
+    /// The point made by a feature.
+    pub fn point_of(&self, feature: FeatureId) -> Option<&ContactPoint<V>> {
+        self.points().iter().find(|point| point.feature == feature)
+    }
+}
+
+impl<V: Vector, const N: usize> Default for Manifold<V, N> {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}

@@ -1,0 +1,23 @@
+//! Narrow phase: the contact points of one pair of shapes.
+
+use glam::DVec2;
+
+use crate::manifold::Manifold;
+
+pub mod planar;
+
+/// What is asked about a pair, besides its shapes and poses.
+#[derive(Clone, Copy, Debug)]
+pub struct Query<'a, V, const N: usize> {
+    /// Largest separation at which a point is reported [m]. More finds contacts earlier; 0 reports touching points only.
+    pub margin: f64,
+    /// Overlap that counts as lying flush, so that sliding over a seam meets no side of the next shape [m].
+    ///
+    /// The slop is a good value. Zero switches the rule off; see [`planar`].
+    pub flush_tolerance: f64,
+    /// The same pair's manifold of the step before. It decides on which side of a thin rod the other shape belongs.
+    pub previous: Option<&'a Manifold<V, N>>,
+}
+
+/// A query about two shapes of the plane.
+pub type PlanarQuery<'a> = Query<'a, DVec2, 2>;
