@@ -1,0 +1,90 @@
+//! Contact models and their settings.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How bodies in contact act on each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+pub enum ContactModel {
+    /// Springs and dampers that push overlapping bodies apart.
+    Penalty,
+    /// Impulses, one contact at a time, worst first, until no contact is colliding.
+    #[default]
+    Impulse,
+}
+
+impl ContactModel {
+    /// Every model, in the order of this file.
+    pub const ALL: [Self; 2] = [Self::Penalty, Self::Impulse];
+
+    /// The word for the model on the command line.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Penalty => "penalty",
+            Self::Impulse => "impulse",
+        }
+    }
+
+    /// The model of a word on the command line.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|model| model.word() == word)
+    }
+}
+
+/// Settings of every contact model.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModelEntries {
+    /// Settings of the penalty model.
+    #[serde(default)]
+    pub penalty: PenaltyEntry,
+    /// Settings of the impulse model.
+    #[serde(default)]
+    pub impulse: ImpulseEntry,
+}
+
+/// Settings of the penalty model; absent ones take the model's defaults.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PenaltyEntry {
+    /// How overlap becomes force. Default SpringDamper.
+    #[serde(default)]
+    pub law: PenaltyLaw,
+    /// Normal force per overlap [N/m]. Default such that dt is a tenth of the largest stable one.
+    #[serde(default)]
+    pub stiffness: Option<f64>,
+    /// Normal force per approach speed [N·s/m]. Default what gives the restitution of the pair of materials.
+    #[serde(default)]
+    pub damping: Option<f64>,
+    /// Slip below which friction grows in proportion, instead of being constant [m/s]. Default 0.001 length scales per second.
+    #[serde(default)]
+    pub slip_speed: Option<f64>,
+    /// Tangential force per slip in the Lecture law, which has no Coulomb friction [N·s/m]. Default 1.
+    #[serde(default)]
+    pub viscosity: Option<f64>,
+}
+
+/// How overlap becomes force.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum PenaltyLaw {
+    /// A spring and a damper at every contact point, with regularised Coulomb friction.
+    #[default]
+    SpringDamper,
+    /// The homework's force, only at rod ends on half-planes and only while they go down: −viscosity · slip, −stiffness · height.
+    Lecture,
+}
+
+/// Settings of the impulse model; absent ones take the model's defaults.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ImpulseEntry {
+    /// Sweeps over the resting contacts in each step, at most [1].
+    #[serde(default)]
+    pub iterations: Option<u32>,
+    /// Approach speed above which a contact is colliding [m/s].
+    #[serde(default)]
+    pub colliding_tolerance: Option<f64>,
+    /// Impulses on colliding contacts in each step, at most, per contact [1].
+    #[serde(default)]
+    pub max_impulses: Option<u32>,
+}

@@ -1,0 +1,156 @@
+//! The top of a scene file.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, dvec2};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    BodyEntry, ContactModel, Expectation, ForceEntry, MaterialEntry, ModelEntries, PairEntry, Part, SpringEntry,
+    Surface, Take,
+};
+
+/// A planar scene: what is there, how it is simulated, and what it promises.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Version of this format; 1 is the only one so far.
+    pub format: u32,
+    /// What the scene shows, in a sentence or two. Default empty.
+    #[serde(default)]
+    pub about: String,
+    /// Time step [s]. Default 0.01. Smaller is more accurate and takes longer.
+    #[serde(default = "default_dt")]
+    pub dt: f64,
+    /// Simulated time [s].
+    pub duration: f64,
+    /// Acceleration of free fall [m/s²]. Default (0, −9.81).
+    #[serde(default = "default_gravity")]
+    #[schemars(with = "(f64, f64)")]
+    pub gravity: DVec2,
+    /// Typical size of a body [m]; tolerances are multiples of it. Default 1.
+    #[serde(default = "one")]
+    pub length_scale: f64,
+    /// Overlap that is left alone, so that resting contacts do not flicker [m]. Default 0.005 of the length scale.
+    #[serde(default)]
+    pub slop: Option<f64>,
+    /// How velocity and position advance. Default SymplecticEuler.
+    #[serde(default)]
+    pub integrator: Integrator,
+    /// The contact model that runs, unless the command line chooses another. Default Impulse.
+    #[serde(default)]
+    pub contact: ContactModel,
+    /// Settings of every contact model, the chosen one and the others. Absent ones take the model's defaults.
+    #[serde(default)]
+    pub models: ModelEntries,
+    /// Steps between two samples of the recording [1]. Default 1: every step.
+    #[serde(default = "default_every")]
+    pub every: u32,
+    /// Seed of everything random, which is the jitter of repeated bodies. Default 0.
+    #[serde(default)]
+    pub seed: u64,
+    /// Whether bodies may overlap by more than the slop at the start. Default false: that is a mistake.
+    #[serde(default)]
+    pub allow_overlap: bool,
+    /// Files of further material tables, relative to this file; later ones override earlier ones. Default none.
+    #[serde(default)]
+    pub materials_from: Vec<String>,
+    /// Materials by name; they override those of tables. A body without a material is made of "default".
+    #[serde(default)]
+    pub materials: BTreeMap<String, MaterialEntry>,
+    /// Pairs of materials; they override those of tables, in either order of the two names.
+    #[serde(default)]
+    pub pairs: Vec<PairEntry>,
+    /// Surface state looked up in material pairs. Default Dry.
+    #[serde(default)]
+    pub surface: Surface,
+    /// Which figure of a range is taken. Default Midpoint.
+    #[serde(default)]
+    pub take: Take,
+    /// Lists of parts by name, for bodies that share a shape: `parts: [List("hammer")]`.
+    #[serde(default)]
+    pub part_lists: BTreeMap<String, Vec<Part>>,
+    /// The bodies. Their order means nothing: ids are the ranks of their names.
+    #[serde(default)]
+    pub bodies: Vec<BodyEntry>,
+    /// Springs with damping between points of bodies or of the world.
+    #[serde(default)]
+    pub springs: Vec<SpringEntry>,
+    /// Applied forces and torques.
+    #[serde(default)]
+    pub forces: Vec<ForceEntry>,
+    /// What a run must show, each with a tolerance and a reason.
+    #[serde(default)]
+    pub expect: Vec<Expectation>,
+}
+
+/// How velocity and position advance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Integrator {
+    /// v += a Δt, then x += v Δt with the new velocity: first order, no energy drift.
+    #[default]
+    SymplecticEuler,
+    /// x += v Δt + ½ a Δt², then v += a Δt: exact under a constant force, second order otherwise.
+    Ballistic,
+}
+
+impl Scene {
+    /// The version of the format that this library reads and writes.
+    pub const FORMAT: u32 = 1;
+
+    /// Default slop in length scales [1].
+    const SLOP_PER_LENGTH_SCALE: f64 = 0.005;
+
+    /// Overlap that is left alone, the default filled in [m].
+    pub fn slop_or_default(&self) -> f64 {
+        self.slop.unwrap_or(Self::SLOP_PER_LENGTH_SCALE * self.length_scale)
+    }
+}
+
+/// An empty scene of one second.
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            format: Self::FORMAT,
+            about: String::new(),
+            dt: default_dt(),
+            duration: 1.0,
+            gravity: default_gravity(),
+            length_scale: one(),
+            slop: None,
+            integrator: Integrator::default(),
+            contact: ContactModel::default(),
+            models: ModelEntries::default(),
+            every: default_every(),
+            seed: 0,
+            allow_overlap: false,
+            materials_from: Vec::new(),
+            materials: BTreeMap::new(),
+            pairs: Vec::new(),
+            surface: Surface::default(),
+            take: Take::default(),
+            part_lists: BTreeMap::new(),
+            bodies: Vec::new(),
+            springs: Vec::new(),
+            forces: Vec::new(),
+            expect: Vec::new(),
+        }
+    }
+}
+
+fn default_dt() -> f64 {
+    0.01
+}
+
+fn default_gravity() -> DVec2 {
+    dvec2(0.0, -9.81)
+}
+
+fn default_every() -> u32 {
+    1
+}
+
+pub(super) fn one() -> f64 {
+    1.0
+}
