@@ -1,44 +1,29 @@
-//! Broad phase: the set of pairs whose grown bounds overlap.
+//! Broad phase: the set of pairs whose grown volumes overlap.
+//!
+//! Each proxy has a *fat* volume: its true one grown by a margin. As long as the true volume stays inside, nothing is done; when it
+//! leaves, the fat one is built anew and its pairs are found again, by a tree of boxes. So the cost of a step follows the
+//! number of proxies that left, plus one pass over the list of pairs.
+//!
+//! ```text
+//!   ┌─ fat ──────────┐
+//!   │    ┌ true ┐    │      a pair lives while two fat volumes overlap
+//!   │    │   ●──┼──▶ │
+//!   │    └──────┘    │
+//!   └────────────────┘
+//! ```
+//!
+//! Half-spaces reach everywhere and would spoil the tree: each moved box is tested against each of them directly.
+//!
+//! The set of pairs depends on the fat volumes alone, never on the order of insertion or the form of the tree.
 
-use tumble_math::{Bounds, Planar, Pose, Vector};
-use tumble_shape::PlanarShape;
+mod tree;
+mod volume;
 
-/// Where a shape may be, coarsely.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Volume<V> {
-    /// Inside a box.
-    Box(Bounds<V>),
-    /// Where normal · p ≤ offset.
-    HalfSpace {
-        /// Unit vector out of the solid.
-        normal: V,
-        /// Signed distance of the surface from the origin along the normal [m].
-        offset: f64,
-    },
-}
+use tumble_math::Vector;
 
-impl<V: Vector> Volume<V> {
-    /// The volume grown by a margin on every side [m].
-    pub fn grown(self, margin: f64) -> Self {
-        match self {
-            Self::Box(bounds) => Self::Box(bounds.grown(margin)),
-            Self::HalfSpace { normal, offset } => Self::HalfSpace { normal, offset: offset + margin },
-        }
-    }
-}
+pub use volume::Volume;
 
-impl Volume<glam::DVec2> {
-    /// The volume of a shape in a pose.
-    pub fn of_planar(shape: &PlanarShape, pose: &Pose<Planar>) -> Self {
-        match shape {
-            PlanarShape::HalfPlane(half_plane) => {
-                let posed = half_plane.posed(pose);
-                Self::HalfSpace { normal: posed.normal(), offset: posed.offset() }
-            }
-            _ => Self::Box(shape.bounds(pose).unwrap_or(Bounds::empty())),
-        }
-    }
-}
+use tree::Tree;
 
 /// How the set of pairs changed: (smaller id, larger id), both lists sorted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -50,39 +35,254 @@ pub struct PairChanges {
 }
 
 /// Keeps the set of near pairs of proxies with dense ids.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct BroadPhase<V> {
-    fat: Vec<Option<Volume<V>>>,
+    proxies: Vec<Option<Proxy<V>>>,
+    tree: Tree<V>,
+    /// Ids of the half-spaces.
+    half_spaces: Vec<u32>,
+    /// What happened to each id since the last update of pairs.
+    marks: Vec<Mark>,
+    /// Ids whose mark is not `Clean`.
+    marked: Vec<u32>,
+    pairs: Vec<(u32, u32)>,
+    /// Scratch space, kept so that a steady step allocates nothing.
+    candidates: Vec<(u32, u32)>,
+    stack: Vec<u32>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Proxy<V> {
+    fat: Volume<V>,
+    /// Handle in the tree, for a box that is not empty.
+    leaf: Option<u32>,
+}
+
+/// What happened to a proxy since the last update of pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Mark {
+    Clean,
+    /// Its fat volume or its filter changed: pairs may begin and end.
+    Changed,
+    /// It was removed, and perhaps inserted again: all its former pairs end.
+    Replaced,
+}
+
+impl<V> Default for BroadPhase<V> {
+    fn default() -> Self {
+        Self {
+            proxies: Vec::new(),
+            tree: Tree::default(),
+            half_spaces: Vec::new(),
+            marks: Vec::new(),
+            marked: Vec::new(),
+            pairs: Vec::new(),
+            candidates: Vec::new(),
+            stack: Vec::new(),
+        }
+    }
 }
 
 impl<V: Vector> BroadPhase<V> {
     /// A broad phase without proxies.
     pub fn new() -> Self {
-        Self { fat: Vec::new() }
+        Self::default()
     }
 
     /// Adds a proxy under a dense id of the caller's choice, its volume grown by `fat_margin` [m]; replaces one that is there.
-    pub fn insert(&mut self, _id: u32, _volume: Volume<V>, _fat_margin: f64) {}
-
-    /// Takes a proxy out; its pairs end at the next [`update_pairs`](Self::update_pairs).
-    pub fn remove(&mut self, _id: u32) {}
-
-    /// Tells where a proxy is now; only when it left its grown volume is that rebuilt, with `fat_margin` around it [m].
-    pub fn update(&mut self, _id: u32, _volume: Volume<V>, _fat_margin: f64) {}
-
-    /// Asks the filter again about all pairs of a proxy at the next [`update_pairs`](Self::update_pairs).
-    pub fn touch(&mut self, _id: u32) {}
-
-    /// Brings the set of pairs up to date and tells what changed.
-    pub fn update_pairs(&mut self, _filter: impl Fn(u32, u32) -> bool, _changes: &mut PairChanges) {}
-
-    /// All pairs, sorted.
-    pub fn pairs(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        std::iter::empty()
+    pub fn insert(&mut self, id: u32, volume: Volume<V>, fat_margin: f64) {
+        self.remove(id);
+        self.place(id, volume.grown(fat_margin));
     }
 
-    /// The grown volume of a proxy.
+    /// Takes a proxy out; its pairs end at the next [`update_pairs`](Self::update_pairs).
+    pub fn remove(&mut self, id: u32) {
+        if self.proxy(id).is_some() {
+            self.displace(id);
+            self.mark(id, Mark::Replaced);
+        }
+    }
+
+    /// Tells where a proxy is now; when it left its fat volume, that is built anew with `fat_margin` around it [m].
+    ///
+    /// A fat volume that became needlessly wide (more than four margins, after a fast body slowed down) is built anew as well.
+    pub fn update(&mut self, id: u32, volume: Volume<V>, fat_margin: f64) {
+        let Some(proxy) = self.proxy(id) else {
+            return self.place(id, volume.grown(fat_margin));
+        };
+        if proxy.fat.contains(&volume) && volume.grown(4.0 * fat_margin).contains(&proxy.fat) {
+            return;
+        }
+        let fat = volume.grown(fat_margin);
+        if let (Some(leaf), Volume::Box(bounds)) = (proxy.leaf, fat)
+            && bounds.overlaps(&bounds)
+        {
+            self.tree.replace(leaf, bounds);
+            self.proxies[id as usize] = Some(Proxy { fat, leaf: Some(leaf) });
+            self.mark(id, Mark::Changed);
+        } else {
+            self.displace(id);
+            self.place(id, fat);
+        }
+    }
+
+    /// Asks the filter again about all pairs of a proxy at the next [`update_pairs`](Self::update_pairs).
+    pub fn touch(&mut self, id: u32) {
+        if self.proxy(id).is_some() {
+            self.mark(id, Mark::Changed);
+        }
+    }
+
+    /// Brings the set of pairs up to date and tells what changed since the last time.
+    ///
+    /// `filter(smaller id, larger id)` says whether a pair is wanted; it is asked when the pair may begin, and again only when one
+    /// of the two moved out of its fat volume, was replaced, or was [touched](Self::touch).
+    pub fn update_pairs(&mut self, filter: impl Fn(u32, u32) -> bool, changes: &mut PairChanges) {
+        changes.added.clear();
+        changes.removed.clear();
+        if self.marked.is_empty() {
+            return;
+        }
+        self.drop_ended_pairs(&filter, &mut changes.removed);
+        self.find_candidates();
+        self.candidates.sort_unstable();
+        self.add_new_pairs(&filter, &mut changes.added);
+        for id in self.marked.drain(..) {
+            self.marks[id as usize] = Mark::Clean;
+        }
+    }
+
+    /// All pairs, sorted: (smaller id, larger id).
+    pub fn pairs(&self) -> &[(u32, u32)] {
+        &self.pairs
+    }
+
+    /// The fat volume of a proxy.
     pub fn fat_volume(&self, id: u32) -> Option<Volume<V>> {
-        self.fat.get(id as usize).copied().flatten()
+        self.proxy(id).map(|proxy| proxy.fat)
+    }
+
+    /// Oracle: the pairs whose fat volumes overlap and that the filter wants, found by looking at every pair.
+    pub fn all_pairs(&self, filter: impl Fn(u32, u32) -> bool) -> Vec<(u32, u32)> {
+        let count = self.proxies.len() as u32;
+        let every = (0..count).flat_map(|low| (low + 1..count).map(move |high| (low, high)));
+        every.filter(|&(low, high)| self.fat_volumes_overlap(low, high) && filter(low, high)).collect()
+    }
+
+    fn drop_ended_pairs(&mut self, filter: &impl Fn(u32, u32) -> bool, removed: &mut Vec<(u32, u32)>) {
+        let mut pairs = std::mem::take(&mut self.pairs);
+        pairs.retain(|&(low, high)| {
+            let stays = match (self.marks[low as usize], self.marks[high as usize]) {
+                (Mark::Clean, Mark::Clean) => true,
+                (Mark::Replaced, _) | (_, Mark::Replaced) => false,
+                _ => self.fat_volumes_overlap(low, high) && filter(low, high),
+            };
+            if !stays {
+                removed.push((low, high));
+            }
+            stays
+        });
+        self.pairs = pairs;
+    }
+
+    /// Collects every overlapping pair of which at least one is marked, each once.
+    fn find_candidates(&mut self) {
+        let Self { proxies, tree, half_spaces, marks, marked, candidates, stack, .. } = self;
+        candidates.clear();
+        for &id in marked.iter() {
+            let Some(proxy) = proxies[id as usize] else { continue };
+            let mut add = |other: u32| candidates.push((id.min(other), id.max(other)));
+            match &proxy.fat {
+                Volume::Box(bounds) => {
+                    // Of two marked boxes, the one with the smaller id reports the pair.
+                    tree.query(bounds, stack, |other| {
+                        if other > id || (other < id && marks[other as usize] == Mark::Clean) {
+                            add(other);
+                        }
+                    });
+                    for &other in half_spaces.iter() {
+                        if proxies[other as usize].is_some_and(|other| other.fat.overlaps(&proxy.fat)) {
+                            add(other);
+                        }
+                    }
+                }
+                Volume::HalfSpace { .. } => {
+                    for (other, other_proxy) in proxies.iter().enumerate() {
+                        let clean = marks[other] == Mark::Clean;
+                        if clean && other_proxy.is_some_and(|other| other.fat.overlaps(&proxy.fat)) {
+                            add(other as u32);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Merges those sorted candidates into the sorted pairs that are not there yet and that the filter wants.
+    fn add_new_pairs(&mut self, filter: &impl Fn(u32, u32) -> bool, added: &mut Vec<(u32, u32)>) {
+        let mut known = self.pairs.iter().peekable();
+        for &pair in &self.candidates {
+            while known.next_if(|&&other| other < pair).is_some() {}
+            if known.peek() != Some(&&pair) && filter(pair.0, pair.1) {
+                added.push(pair);
+            }
+        }
+        // Merge from the back, so that nothing is overwritten before it is moved.
+        let mut old = self.pairs.len();
+        self.pairs.extend_from_slice(added);
+        let mut place = self.pairs.len();
+        for &pair in added.iter().rev() {
+            while old > 0 && self.pairs[old - 1] > pair {
+                old -= 1;
+                place -= 1;
+                self.pairs[place] = self.pairs[old];
+            }
+            place -= 1;
+            self.pairs[place] = pair;
+        }
+    }
+
+    fn proxy(&self, id: u32) -> Option<&Proxy<V>> {
+        self.proxies.get(id as usize)?.as_ref()
+    }
+
+    fn fat_volumes_overlap(&self, one: u32, other: u32) -> bool {
+        matches!((self.proxy(one), self.proxy(other)), (Some(one), Some(other)) if one.fat.overlaps(&other.fat))
+    }
+
+    fn place(&mut self, id: u32, fat: Volume<V>) {
+        if self.proxies.len() <= id as usize {
+            self.proxies.resize(id as usize + 1, None);
+            self.marks.resize(id as usize + 1, Mark::Clean);
+        }
+        let leaf = match fat {
+            // An empty or NaN box does not even overlap itself; it meets nothing, and must not spoil the boxes above it.
+            Volume::Box(bounds) => bounds.overlaps(&bounds).then(|| self.tree.insert(id, bounds)),
+            Volume::HalfSpace { .. } => {
+                self.half_spaces.push(id);
+                None
+            }
+        };
+        self.proxies[id as usize] = Some(Proxy { fat, leaf });
+        self.mark(id, Mark::Changed);
+    }
+
+    fn displace(&mut self, id: u32) {
+        match self.proxies[id as usize].take() {
+            Some(Proxy { leaf: Some(leaf), .. }) => self.tree.remove(leaf),
+            _ => self.half_spaces.retain(|&other| other != id),
+        }
+    }
+
+    fn mark(&mut self, id: u32, mark: Mark) {
+        let present = &mut self.marks[id as usize];
+        match *present {
+            Mark::Clean => {
+                *present = mark;
+                self.marked.push(id);
+            }
+            Mark::Changed => *present = mark,
+            Mark::Replaced => {}
+        }
     }
 }
