@@ -17,6 +17,7 @@ mod fingerprint;
 mod names;
 pub mod plot;
 mod recording;
+pub mod replay;
 mod summary;
 pub mod tables;
 mod thin;

@@ -31,6 +31,8 @@ pub struct Plot {
 
 /// Size of the picture [px].
 const SIZE: (u32, u32) = (960, 540);
+/// Drawing units per pixel: the backend rounds to whole units, and curves of whole pixels would look jagged.
+const FINE: u32 = 8;
 /// Colours that people of every colour vision can tell apart (Okabe and Ito 2008), then darker ones for long lists.
 const COLORS: [RGBColor; 12] = [
     RGBColor(0, 114, 178),
@@ -46,6 +48,8 @@ const COLORS: [RGBColor; 12] = [
     RGBColor(0, 70, 110),
     RGBColor(160, 30, 60),
 ];
+/// Most letters of a label in the legend.
+const LABEL_LETTERS: usize = 32;
 const INK: RGBColor = RGBColor(40, 44, 52);
 const FAINT_INK: RGBColor = RGBColor(110, 116, 126);
 const GRID: RGBColor = RGBColor(226, 229, 234);
@@ -80,30 +84,37 @@ impl Plot {
     /// Draws the plot as the text of an SVG file.
     pub fn to_svg(&self) -> String {
         let mut svg = String::new();
-        let drawn = self.draw(SVGBackend::with_string(&mut svg, SIZE).into_drawing_area());
+        let fine_size = (SIZE.0 * FINE, SIZE.1 * FINE);
+        let drawn = self.draw(SVGBackend::with_string(&mut svg, fine_size).into_drawing_area());
         drawn.expect("drawing into memory cannot fail");
-        svg
+        // The view box stays in fine units, the picture is shown in pixels.
+        let shown = |size: (u32, u32)| format!("<svg width=\"{}\" height=\"{}\"", size.0, size.1);
+        svg.replacen(&shown(fine_size), &shown(SIZE), 1)
     }
 
     fn draw(&self, page: Page<'_>) -> DrawResult {
         page.fill(&WHITE)?;
-        page.draw(&Text::new(clean(&self.title), (84, 18), (FONT, 19).into_text_style(&page).color(&INK)))?;
+        page.draw(&Text::new(
+            clean(&self.title, 90),
+            point(74, 16),
+            (FONT, fine(21)).into_text_style(&page).color(&INK),
+        ))?;
 
         let legend_width = if self.series.len() > 1 { self.legend_width() } else { 0 };
-        let (page, legend) = page.split_horizontally(SIZE.0 - legend_width);
+        let (page, legend) = page.split_horizontally(fine(SIZE.0 - legend_width));
         let times = padded(span(self.series.iter().flat_map(|series| &series.times)), 0.0);
         let values = padded(span(self.series.iter().flat_map(|series| &series.values)), 0.06);
         let mut chart = ChartBuilder::on(&page)
-            .margin_top(54)
-            .margin_right(26)
-            .margin_bottom(14)
-            .margin_left(14)
-            .x_label_area_size(46)
-            .y_label_area_size(70)
+            .margin_top(fine(54))
+            .margin_right(fine(26))
+            .margin_bottom(fine(12))
+            .margin_left(fine(12))
+            .x_label_area_size(fine(46))
+            .y_label_area_size(fine(62))
             .build_cartesian_2d(times.0..times.1, values.0..values.1)?;
         self.draw_axes(&mut chart, times, values)?;
         for (index, series) in self.series.iter().enumerate() {
-            let style = ShapeStyle::from(&COLORS[index % COLORS.len()]).stroke_width(2);
+            let style = ShapeStyle::from(&COLORS[index % COLORS.len()]).stroke_width(fine(2));
             for stretch in finite_stretches(series) {
                 // A lone point has no line; a short dash keeps it visible.
                 let width = if stretch.len() == 1 { (times.1 - times.0) * 0.004 } else { 0.0 };
@@ -118,8 +129,8 @@ impl Plot {
     }
 
     fn draw_axes(&self, chart: &mut Chart<'_>, times: (f64, f64), values: (f64, f64)) -> DrawResult {
-        let ink: TextStyle<'_> = (FONT, 14).into_text_style(chart.plotting_area()).color(&INK);
-        let faint_ink: TextStyle<'_> = (FONT, 13).into_text_style(chart.plotting_area()).color(&FAINT_INK);
+        let ink: TextStyle<'_> = (FONT, fine(16)).into_text_style(chart.plotting_area()).color(&INK);
+        let faint_ink: TextStyle<'_> = (FONT, fine(15)).into_text_style(chart.plotting_area()).color(&FAINT_INK);
         chart
             .configure_mesh()
             .x_labels(10)
@@ -127,36 +138,51 @@ impl Plot {
             .x_label_formatter(&|time| tick(*time, times))
             .y_label_formatter(&|value| tick(*value, values))
             .x_desc("time [s]")
-            .y_desc(clean(&self.value_label))
+            .y_desc(clean(&self.value_label, 60))
             .label_style(faint_ink)
             .axis_desc_style(ink)
-            .bold_line_style(GRID)
+            .bold_line_style(ShapeStyle::from(&GRID).stroke_width(fine(1)))
             .light_line_style(WHITE.mix(0.0))
-            .axis_style(FAINT_INK)
+            .axis_style(ShapeStyle::from(&FAINT_INK).stroke_width(fine(1)))
+            .set_all_tick_mark_size(fine(5))
             .draw()?;
         if values.0 < 0.0 && values.1 > 0.0 {
-            let zero = PathElement::new(vec![(times.0, 0.0), (times.1, 0.0)], FAINT_INK.mix(0.7));
+            let zero = PathElement::new(
+                vec![(times.0, 0.0), (times.1, 0.0)],
+                ShapeStyle::from(&FAINT_INK.mix(0.7)).stroke_width(fine(1)),
+            );
             chart.draw_series([zero])?;
         }
         Ok(())
     }
 
-    /// Returns the width of the legend, from the longest label; letters of this font are about 7 px wide.
+    /// Returns the width of the legend, from the longest label; letters of this font are about 7 to 8 px wide.
     fn legend_width(&self) -> u32 {
-        let longest = self.series.iter().map(|series| clean(&series.label).chars().count()).max().unwrap_or(0);
-        44 + 7 * longest as u32 + 12
+        let longest =
+            self.series.iter().map(|series| clean(&series.label, LABEL_LETTERS).chars().count()).max().unwrap_or(0);
+        44 + 8 * longest as u32 + 12
     }
 
     fn draw_legend(&self, legend: &Page<'_>) -> DrawResult {
         let style: TextStyle<'_> =
-            (FONT, 13).into_text_style(legend).color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+            (FONT, fine(15)).into_text_style(legend).color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
         for (index, series) in self.series.iter().enumerate() {
             let y = 66 + 24 * index as i32;
-            legend.draw(&Rectangle::new([(6, y - 2), (30, y + 2)], COLORS[index % COLORS.len()].filled()))?;
-            legend.draw(&Text::new(clean(&series.label), (38, y), style.clone()))?;
+            legend.draw(&Rectangle::new([point(6, y - 2), point(30, y + 2)], COLORS[index % COLORS.len()].filled()))?;
+            legend.draw(&Text::new(clean(&series.label, LABEL_LETTERS), point(38, y), style.clone()))?;
         }
         Ok(())
     }
+}
+
+/// Converts a length from pixels to drawing units.
+fn fine(pixels: u32) -> u32 {
+    pixels * FINE
+}
+
+/// Converts a point from pixels to drawing units.
+fn point(x: i32, y: i32) -> (i32, i32) {
+    (x * FINE as i32, y * FINE as i32)
 }
 
 /// Returns the heading of a plot: scene, quantity and contact model.
@@ -165,11 +191,11 @@ fn heading(recording: &Recording, quantity: &str) -> String {
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  ·  ")
 }
 
-/// Makes text fit for a drawing: no control characters, which SVG forbids, and at most 80 letters.
-fn clean(text: &str) -> String {
-    let mut clean: String =
-        text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).take(80).collect();
-    if text.chars().nth(80).is_some() {
+/// Makes text fit for a drawing: no control characters, which SVG forbids, and at most so many letters.
+fn clean(text: &str, most: usize) -> String {
+    let letters = text.chars().map(|letter| if letter.is_control() { ' ' } else { letter });
+    let mut clean: String = letters.take(most).collect();
+    if text.chars().nth(most).is_some() {
         clean.push('…');
     }
     clean

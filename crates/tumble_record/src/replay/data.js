@@ -1,0 +1,122 @@
+// The recording: decoded once, then read by time.
+
+/** Decodes base64 of little-endian 32-bit words. */
+function decodeWords(text, Words) {
+  const letters = atob(text);
+  const bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
+  return new Words(bytes.buffer);
+}
+
+const recording = (() => {
+  const data = JSON.parse(document.getElementById("recording").textContent);
+  data.poses = decodeWords(data.poses, Float32Array);
+  data.contact_numbers = decodeWords(data.contact_numbers, Float32Array);
+  data.contact_pairs = decodeWords(data.contact_pairs, Uint32Array);
+  data.contact_starts = decodeWords(data.contact_starts, Uint32Array);
+  for (const name of ["kinetic", "potential", "total", "deepest_overlap", "contacts"]) {
+    data.audit[name] = decodeWords(data.audit[name], Float32Array);
+  }
+  return data;
+})();
+const firstTime = recording.times[0] ?? 0;
+const lastTime = recording.times.at(-1) ?? 0;
+
+/** Index of the last entry that is not later than `time`; 0 before the first. */
+function indexAt(times, time) {
+  let low = 0, high = times.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (times[middle] <= time) low = middle; else high = middle - 1;
+  }
+  return low;
+}
+
+/** Poses of all bodies at a time, between samples by linear interpolation; x is NaN for a body that is not in the world. */
+function posesAt(time, out = []) {
+  const { times, poses, bodies, origin } = recording;
+  const sample = indexAt(times, time), next = Math.min(sample + 1, times.length - 1);
+  const span = times[next] - times[sample];
+  const share = span > 0 ? Math.min(Math.max((time - times[sample]) / span, 0), 1) : 0;
+  for (let body = 0; body < bodies.length; body++) {
+    const now = (sample * bodies.length + body) * 3, later = (next * bodies.length + body) * 3;
+    const blend = (i) => {
+      const value = poses[now + i], end = poses[later + i];
+      return share > 0 && end === end ? value + share * (end - value) : value;
+    };
+    const angle = blend(2);
+    out[body] = { x: origin[0] + blend(0), y: origin[1] + blend(1), cos: Math.cos(angle), sin: Math.sin(angle), angle };
+  }
+  return out;
+}
+
+/** Contacts of a sample: point, normal from a to b, normal and friction force on b, indices of a and b. */
+function contactsOf(sample) {
+  const { contact_numbers: numbers, contact_pairs: pairs, contact_starts: starts, origin, dt } = recording;
+  const contacts = [];
+  for (let i = starts[sample]; i < starts[sample + 1]; i++) {
+    const [x, y, nx, ny, normal, tangent] = numbers.subarray(6 * i, 6 * i + 6);
+    contacts.push({
+      x: origin[0] + x, y: origin[1] + y,
+      fx: (normal * nx + tangent * ny) / dt, fy: (normal * ny - tangent * nx) / dt,
+      a: pairs[2 * i], b: pairs[2 * i + 1],
+    });
+  }
+  return contacts;
+}
+
+/** Sum of the normal impulses of a sample. */
+function normalImpulse(sample) {
+  let sum = 0;
+  for (let i = recording.contact_starts[sample]; i < recording.contact_starts[sample + 1]; i++) {
+    sum += recording.contact_numbers[6 * i + 4];
+  }
+  return sum;
+}
+
+/** The force that most contacts stay below: the middle of the upper half of all of them. */
+function typicalForce() {
+  const { contact_numbers: numbers, dt } = recording;
+  const count = numbers.length / 6, stride = Math.max(1, Math.floor(count / 20000));
+  const forces = [];
+  for (let i = 0; i < count; i += stride) {
+    const force = Math.hypot(numbers[6 * i + 4], numbers[6 * i + 5]) / dt;
+    if (force > 0 && isFinite(force)) forces.push(force);
+  }
+  forces.sort((a, b) => a - b);
+  return forces[Math.floor(0.75 * forces.length)] ?? 1;
+}
+
+/** The nearest of 1, 2, 5 times a power of ten that is not above `value`. */
+function niceBelow(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * (value >= 5 * power ? 5 : value >= 2 * power ? 2 : 1);
+}
+
+/** A number in a few digits, with a true minus sign. */
+function show(value, digits = 4) {
+  if (value === undefined || value === null || Number.isNaN(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  const text = size >= 1e6 || size < 1e-4 ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
+  return text.replace(/-/g, "−");
+}
+
+/** A colour of the style sheet. */
+function color(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}
+
+/** Makes a canvas as fine as the screen; returns its context, in CSS pixels, and its size. */
+function sharpCanvas(canvas) {
+  const ratio = window.devicePixelRatio || 1;
+  const width = canvas.clientWidth, height = canvas.clientHeight;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, width, height);
+  return { context, width, height };
+}

@@ -1,0 +1,180 @@
+//! Replay: one HTML file that plays a recording in a browser, without a network.
+//!
+//! Page, style, scripts and data are in the file. Numbers for the picture are 32-bit floats relative to the middle of the
+//! scene (better than 1e-6 of its size), in base64. A long recording is thinned to at most [`MOST_POSES`] poses and
+//! [`MOST_CONTACTS`] contact points by leaving out whole samples, evenly, and the page says so; the file then stays below
+//! 30 MB. Once drawn, the `body` element has `data-ready="true"`, `data-bodies`, `data-samples` and `data-time`.
+//! The address may end in `#t=1.5` to open at a time.
+
+mod encode;
+
+use std::io::{self, Write};
+
+use glam::DVec2;
+use serde::Serialize;
+
+use crate::recording::{AuditRow, BodyKind, BodyRecord, Recording, Sample, ShapeRecord};
+use crate::thin::keep_extremes;
+use encode::{floats, words};
+
+/// Most poses (samples × bodies) in a replay: about 10 MB.
+pub const MOST_POSES: usize = 600_000;
+/// Most contact points in a replay, over all samples: about 16 MB.
+pub const MOST_CONTACTS: usize = 400_000;
+/// Stretches of the energy plot of which the extremes are kept; finer than its pixels.
+const ENERGY_STRETCHES: usize = 1000;
+
+const PAGE: &str = include_str!("replay.html");
+const STYLE: &str = include_str!("replay.css");
+const SCRIPTS: [&str; 4] =
+    [include_str!("data.js"), include_str!("view.js"), include_str!("energy.js"), include_str!("player.js")];
+
+/// Writes `replay.html`.
+pub fn write_replay(recording: &Recording, mut out: impl Write) -> io::Result<()> {
+    let data = serde_json::to_string(&Data::new(recording))?;
+    // Names may contain `</script>` or `<!--`; a JSON string says `<` in another way too.
+    let data = data.replace('<', "\\u003c");
+    let mut rest = PAGE;
+    for (mark, content) in [("{{STYLE}}", STYLE), ("{{DATA}}", &data), ("{{SCRIPT}}", &SCRIPTS.concat())] {
+        let (before, after) = rest.split_once(mark).expect("the page has each mark once, in this order");
+        out.write_all(before.as_bytes())?;
+        out.write_all(content.as_bytes())?;
+        rest = after;
+    }
+    out.write_all(rest.as_bytes())
+}
+
+/// What the page reads.
+#[derive(Serialize)]
+struct Data<'a> {
+    scene: &'a str,
+    about: &'a str,
+    contact: &'a str,
+    dt: f64,
+    bodies: Vec<Body<'a>>,
+    /// Number of samples before thinning.
+    recorded_samples: usize,
+    steps: Vec<u64>,
+    times: Vec<f64>,
+    /// Middle of the scene; poses and contact points are relative to it [m].
+    origin: DVec2,
+    /// x, y, angle of each body in each sample; NaN while it is not in the world.
+    poses: String,
+    /// Index of the first contact of each sample, and the number of all.
+    contact_starts: String,
+    /// x, y, n_x, n_y, normal and tangent impulse of each contact.
+    contact_numbers: String,
+    /// Indices of a and b of each contact.
+    contact_pairs: String,
+    audit: Audit,
+}
+
+#[derive(Serialize)]
+struct Body<'a> {
+    name: &'a str,
+    kind: &'static str,
+    shapes: &'a [ShapeRecord],
+}
+
+/// Curves over the steps, thinned without losing a peak.
+#[derive(Serialize)]
+struct Audit {
+    times: Vec<f64>,
+    kinetic: String,
+    potential: String,
+    total: String,
+    deepest_overlap: String,
+    contacts: String,
+}
+
+impl<'a> Data<'a> {
+    fn new(recording: &'a Recording) -> Self {
+        let samples = thinned(recording);
+        let origin = middle(&samples);
+        let contacts = || samples.iter().flat_map(|sample| &sample.contacts);
+        Self {
+            scene: &recording.scene,
+            about: &recording.about,
+            contact: &recording.contact,
+            dt: recording.dt,
+            bodies: recording.bodies.iter().map(Body::new).collect(),
+            recorded_samples: recording.samples.len(),
+            steps: samples.iter().map(|sample| sample.step).collect(),
+            times: samples.iter().map(|sample| sample.time).collect(),
+            origin,
+            poses: floats(samples.iter().flat_map(|sample| {
+                (0..recording.bodies.len()).flat_map(move |body| match sample.state(body) {
+                    Some(state) => [state.position.x - origin.x, state.position.y - origin.y, state.angle],
+                    None => [f64::NAN; 3],
+                })
+            })),
+            contact_starts: words([0].into_iter().chain(samples.iter().scan(0, |count, sample| {
+                *count += sample.contacts.len();
+                Some(*count)
+            }))),
+            contact_numbers: floats(contacts().flat_map(|contact| {
+                let point = contact.point - origin;
+                let normal = contact.normal;
+                [point.x, point.y, normal.x, normal.y, contact.normal_impulse, contact.tangent_impulse]
+            })),
+            contact_pairs: words(contacts().flat_map(|contact| [contact.a, contact.b])),
+            audit: Audit::new(&recording.audit),
+        }
+    }
+}
+
+impl<'a> Body<'a> {
+    fn new(body: &'a BodyRecord) -> Self {
+        let kind = match body.kind {
+            BodyKind::Dynamic => "dynamic",
+            BodyKind::Kinematic => "kinematic",
+            BodyKind::Static => "static",
+        };
+        Self { name: &body.name, kind, shapes: &body.shapes }
+    }
+}
+
+impl Audit {
+    fn new(rows: &[AuditRow]) -> Self {
+        let column = |value: fn(&AuditRow) -> f64| rows.iter().map(value).collect::<Vec<f64>>();
+        let curves = [column(|row| row.kinetic), column(|row| row.potential), column(|row| row.total)];
+        let kept = keep_extremes(rows.len(), ENERGY_STRETCHES, &[&curves[0], &curves[1], &curves[2]]);
+        let encoded = |value: fn(&AuditRow) -> f64| floats(kept.iter().map(|&index| value(&rows[index])));
+        Self {
+            times: kept.iter().map(|&index| rows[index].time).collect(),
+            kinetic: encoded(|row| row.kinetic),
+            potential: encoded(|row| row.potential),
+            total: encoded(|row| row.total),
+            deepest_overlap: encoded(|row| row.deepest_overlap),
+            contacts: encoded(|row| row.contacts as f64),
+        }
+    }
+}
+
+/// Returns every n-th sample and the last one, with the smallest n that keeps poses and contacts below their caps.
+fn thinned(recording: &Recording) -> Vec<&Sample> {
+    let count = recording.samples.len();
+    let poses = count * recording.bodies.len();
+    let mut stride = poses.div_ceil(MOST_POSES).max(1);
+    let every = |stride: usize| {
+        let kept = recording.samples.iter().step_by(stride);
+        // The last sample shows how it ended.
+        kept.chain(recording.samples.last().filter(|_| count > 0 && (count - 1) % stride != 0))
+    };
+    let contacts = |stride| every(stride).map(|sample| sample.contacts.len()).sum::<usize>();
+    while stride < count && contacts(stride) > MOST_CONTACTS {
+        stride += 1;
+    }
+    every(stride).collect()
+}
+
+/// Returns the middle of the box around all finite positions [m].
+fn middle(samples: &[&Sample]) -> DVec2 {
+    let positions = samples.iter().flat_map(|sample| sample.states.iter().flatten()).map(|state| state.position);
+    positions
+        .filter(|position| position.is_finite())
+        .fold(None, |span: Option<(DVec2, DVec2)>, position| {
+            Some(span.map_or((position, position), |(low, high)| (low.min(position), high.max(position))))
+        })
+        .map_or(DVec2::ZERO, |(low, high)| 0.5 * low + 0.5 * high)
+}

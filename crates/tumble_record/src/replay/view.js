@@ -1,0 +1,350 @@
+// The picture of the bodies.
+
+const PALETTE = ["#2f7fc1", "#d9742b", "#2aa37a", "#c0589a", "#b98d00", "#4fa3d8", "#a5544a", "#6f7fd0"];
+
+class View {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.camera = { x: 0, y: 0, scale: 100 };
+    this.fitted = true;
+    this.force = typicalForce();
+    this.bodyColors = recording.bodies.map((_, index) => PALETTE[index % PALETTE.length]);
+    this.reach = recording.bodies.map(bodyReach);
+  }
+
+  /** Shows the start and where nearly all bodies go; one that flies away does not shrink the rest to dots. */
+  fit() {
+    const xs = [], ys = [];
+    const { bodies, times } = recording;
+    const stride = Math.max(1, Math.floor((bodies.length * times.length) / 200000));
+    const poses = [];
+    const visit = (time, lists) => posesAt(time, poses).forEach((pose, body) => {
+      if (Number.isFinite(pose.x) && this.reach[body] < Infinity && Number.isFinite(pose.y)) {
+        lists.push([pose.x - this.reach[body], pose.x + this.reach[body], pose.y - this.reach[body], pose.y + this.reach[body]]);
+      }
+    });
+    const boxes = [];
+    for (let sample = 0; sample < times.length; sample += stride) visit(times[sample], boxes);
+    for (const [left, right, low, high] of boxes) { xs.push(left, right); ys.push(low, high); }
+    xs.sort((a, b) => a - b);
+    ys.sort((a, b) => a - b);
+    const cut = (list, share) => list[Math.round(share * (list.length - 1))];
+    let box = { left: cut(xs, .005) ?? -1, right: cut(xs, .995) ?? 1, low: cut(ys, .005) ?? -1, high: cut(ys, .995) ?? 1 };
+    const start = [];
+    visit(firstTime, start);
+    for (const [left, right, low, high] of start) {
+      box = { left: Math.min(box.left, left), right: Math.max(box.right, right), low: Math.min(box.low, low), high: Math.max(box.high, high) };
+    }
+    const width = Math.max(box.right - box.left, 1e-9), height = Math.max(box.high - box.low, 1e-9);
+    // Room for the tool bar above and for ground and scales below.
+    const room = { x: Math.max(this.canvas.clientWidth - 100, 50), y: Math.max(this.canvas.clientHeight - 150, 50) };
+    this.camera.scale = Math.min(room.x / width, room.y / height);
+    this.camera.x = (box.left + box.right) / 2;
+    this.camera.y = (box.low + box.high) / 2 - 12 / this.camera.scale;
+    this.fitted = true;
+  }
+
+  toScreen(x, y) {
+    return [this.width / 2 + (x - this.camera.x) * this.camera.scale, this.height / 2 - (y - this.camera.y) * this.camera.scale];
+  }
+
+  toWorld(px, py) {
+    return [this.camera.x + (px - this.width / 2) / this.camera.scale, this.camera.y - (py - this.height / 2) / this.camera.scale];
+  }
+
+  zoom(px, py, factor) {
+    const [x, y] = this.toWorld(px, py);
+    this.camera.scale = Math.min(Math.max(this.camera.scale * factor, 1e-4), 1e8);
+    const [nx, ny] = this.toWorld(px, py);
+    this.camera.x += x - nx;
+    this.camera.y += y - ny;
+    this.fitted = false;
+  }
+
+  pan(dx, dy) {
+    this.camera.x -= dx / this.camera.scale;
+    this.camera.y += dy / this.camera.scale;
+    this.fitted = false;
+  }
+
+  /** Draws everything at a time, with the contacts of a sample. */
+  draw(time, sample, options) {
+    const { context, width, height } = sharpCanvas(this.canvas);
+    Object.assign(this, { context, width, height });
+    if (!this.everFitted && width > 0) { this.fit(); this.everFitted = true; }
+    this.poses = posesAt(time);
+    context.fillStyle = color("--canvas");
+    context.fillRect(0, 0, width, height);
+    context.lineJoin = context.lineCap = "round";
+    this.drawGrid();
+    const order = ["static", "kinematic", "dynamic"];
+    for (const kind of order) {
+      if (kind === "dynamic" && options.trails) this.drawTrails(time);
+      recording.bodies.forEach((body, index) => { if (body.kind === kind) this.drawBody(body, index); });
+    }
+    if (options.names) this.drawNames();
+    const contacts = recording.times.length ? contactsOf(sample) : [];
+    if (options.contacts) this.drawContacts(contacts);
+    if (options.forces) this.drawForces(contacts, options.arrowScale);
+    this.drawScales(options);
+  }
+
+  drawGrid() {
+    const { context, width, height, camera } = this;
+    const step = niceBelow(110 / camera.scale);
+    const [left, top] = this.toWorld(0, 0), [right, bottom] = this.toWorld(width, height);
+    for (const [spacing, name] of [[step / 5, "--grid"], [step, "--grid-strong"]]) {
+      if (spacing * camera.scale < 9) continue;
+      context.strokeStyle = color(name);
+      context.lineWidth = 1;
+      context.beginPath();
+      for (let i = Math.ceil(left / spacing); i * spacing <= right; i++) {
+        const x = Math.round(this.toScreen(i * spacing, 0)[0]) + .5;
+        context.moveTo(x, 0); context.lineTo(x, height);
+      }
+      for (let i = Math.ceil(bottom / spacing); i * spacing <= top; i++) {
+        const y = Math.round(this.toScreen(0, i * spacing)[1]) + .5;
+        context.moveTo(0, y); context.lineTo(width, y);
+      }
+      context.stroke();
+    }
+  }
+
+  drawBody(body, index) {
+    const pose = this.poses[index];
+    if (!Number.isFinite(pose.x) || !Number.isFinite(pose.y)) return;
+    const { context, camera } = this;
+    const [sx, sy] = this.toScreen(pose.x, pose.y);
+    const far = this.reach[index] * camera.scale;
+    if (far < Infinity && (sx + far < 0 || sx - far > this.width || sy + far < 0 || sy - far > this.height)) return;
+    const ink = body.kind === "static" ? color("--static") : body.kind === "kinematic" ? color("--kinematic") : this.bodyColors[index];
+    const place = ([x, y]) => this.toScreen(pose.x + pose.cos * x - pose.sin * y, pose.y + pose.sin * x + pose.cos * y);
+    for (const { sensor, geometry } of body.shapes) {
+      context.save();
+      context.strokeStyle = context.fillStyle = ink;
+      context.lineWidth = 2;
+      if (sensor) context.setLineDash([5, 5]);
+      const fill = () => { context.globalAlpha = sensor ? .06 : .22; context.fill(); context.globalAlpha = 1; context.stroke(); };
+      if (geometry.Rod) this.drawRod(geometry.Rod, place, ink, fill);
+      if (geometry.Disc) this.drawDisc(geometry.Disc, place, fill);
+      if (geometry.Polygon) {
+        context.beginPath();
+        geometry.Polygon.points.forEach((point) => context.lineTo(...place(point)));
+        context.closePath();
+        fill();
+      }
+      if (geometry.HalfPlane) this.drawHalfPlane(geometry.HalfPlane, place, pose);
+      context.restore();
+    }
+    if (body.kind === "dynamic" && (far > 9)) {
+      context.fillStyle = ink;
+      context.beginPath(); context.arc(sx, sy, 2.2, 0, 7); context.fill();
+    }
+  }
+
+  drawRod({ from, to, radius }, place, ink, fill) {
+    const { context } = this;
+    const [start, end] = [place(from), place(to)];
+    const wide = radius * this.camera.scale;
+    context.beginPath();
+    if (wide < 2) {
+      context.lineWidth = 3.2;
+      context.moveTo(...start); context.lineTo(...end);
+      context.stroke();
+      return;
+    }
+    const turn = Math.atan2(end[1] - start[1], end[0] - start[0]);
+    context.arc(...start, wide, turn + Math.PI / 2, turn - Math.PI / 2);
+    context.arc(...end, wide, turn - Math.PI / 2, turn + Math.PI / 2);
+    context.closePath();
+    fill();
+  }
+
+  drawDisc({ centre, radius }, place, fill) {
+    const { context } = this;
+    const [x, y] = place(centre);
+    context.beginPath();
+    context.arc(x, y, Math.max(radius * this.camera.scale, 1), 0, 2 * Math.PI);
+    fill();
+    context.beginPath();
+    context.moveTo(x, y); context.lineTo(...place([centre[0] + radius, centre[1]]));
+    context.stroke();
+  }
+
+  /** Fills the solid side, hatched along its surface; the hatching is fixed to the surface and does not swim. */
+  drawHalfPlane({ point, normal }, place, pose) {
+    const { context, width, height } = this;
+    const n = [pose.cos * normal[0] - pose.sin * normal[1], -(pose.sin * normal[0] + pose.cos * normal[1])];
+    const t = [-n[1], n[0]];
+    const base = place(point);
+    const along = (width / 2 - base[0]) * t[0] + (height / 2 - base[1]) * t[1];
+    const half = width + height;
+    const at = (s, depth) => [base[0] + t[0] * s - n[0] * depth, base[1] + t[1] * s - n[1] * depth];
+    const ink = context.strokeStyle;
+    context.fillStyle = color("--ground");
+    context.beginPath();
+    [at(along - half, 0), at(along + half, 0), at(along + half, 3 * half), at(along - half, 3 * half)].forEach((p) => context.lineTo(...p));
+    context.fill();
+    context.strokeStyle = ink;
+    context.lineWidth = 1;
+    context.globalAlpha = .55;
+    context.beginPath();
+    const spacing = 11;
+    for (let i = Math.floor((along - half) / spacing); i * spacing < along + half; i++) {
+      context.moveTo(...at(i * spacing, 0)); context.lineTo(...at(i * spacing - 9, 11));
+    }
+    context.stroke();
+    context.globalAlpha = 1;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(...at(along - half, 0)); context.lineTo(...at(along + half, 0));
+    context.stroke();
+  }
+
+  drawTrails(time) {
+    const { context } = this;
+    const marks = 60, span = 2;
+    const past = [];
+    for (let i = marks; i >= 0; i--) past.push(posesAt(Math.max(firstTime, time - (span * i) / marks)));
+    context.lineWidth = 1.5;
+    context.globalAlpha = .55;
+    recording.bodies.forEach((body, index) => {
+      if (body.kind === "static") return;
+      context.strokeStyle = this.bodyColors[index];
+      context.beginPath();
+      past.forEach((poses) => { if (Number.isFinite(poses[index].x)) context.lineTo(...this.toScreen(poses[index].x, poses[index].y)); });
+      context.stroke();
+    });
+    context.globalAlpha = 1;
+  }
+
+  drawNames() {
+    const { context } = this;
+    context.font = "12px system-ui, sans-serif";
+    context.textAlign = "left";
+    recording.bodies.forEach((body, index) => {
+      if (body.kind === "static" || !Number.isFinite(this.poses[index].x)) return;
+      const [x, y] = this.toScreen(this.poses[index].x, this.poses[index].y);
+      this.outlined(body.name.length > 28 ? body.name.slice(0, 27) + "…" : body.name, x + 7, y - 7);
+    });
+  }
+
+  /** Text with a rim in the colour of the page, readable on anything. */
+  outlined(text, x, y) {
+    const { context } = this;
+    context.lineWidth = 4;
+    context.strokeStyle = color("--canvas");
+    context.strokeText(text, x, y);
+    context.fillStyle = color("--ink");
+    context.fillText(text, x, y);
+  }
+
+  drawContacts(contacts) {
+    const { context } = this;
+    context.lineWidth = 1.5;
+    context.fillStyle = color("--contact");
+    context.strokeStyle = color("--canvas");
+    for (const contact of contacts) {
+      context.beginPath();
+      context.arc(...this.toScreen(contact.x, contact.y), 3.6, 0, 7);
+      context.fill();
+      context.stroke();
+    }
+  }
+
+  drawForces(contacts, arrowScale) {
+    const pixels = (50 * arrowScale) / this.force;
+    for (const contact of contacts) {
+      const [x, y] = this.toScreen(contact.x, contact.y);
+      for (const [body, sign] of [[contact.a, -1], [contact.b, 1]]) {
+        if (recording.bodies[body]?.kind === "dynamic") this.arrow(x, y, sign * contact.fx * pixels, -sign * contact.fy * pixels);
+      }
+    }
+  }
+
+  /** An arrow of at most 220 px; one that had to be cut has a double head. */
+  arrow(x, y, dx, dy) {
+    const { context } = this;
+    const full = Math.hypot(dx, dy);
+    if (!(full >= 1.5)) return;
+    const length = Math.min(full, 220), head = Math.min(9, .6 * length);
+    context.save();
+    context.translate(x, y);
+    context.rotate(Math.atan2(dy, dx));
+    context.strokeStyle = context.fillStyle = color("--force");
+    context.lineWidth = 2;
+    context.lineCap = "butt";
+    context.beginPath(); context.moveTo(0, 0); context.lineTo(length - head, 0); context.stroke();
+    for (const tip of full > 220 ? [length, length - 8] : [length]) {
+      context.beginPath();
+      context.moveTo(tip, 0); context.lineTo(tip - head, .42 * head); context.lineTo(tip - head, -.42 * head);
+      context.fill();
+    }
+    context.restore();
+  }
+
+  /** What a length and an arrow mean. */
+  drawScales(options) {
+    const { context, height, camera } = this;
+    const length = niceBelow(130 / camera.scale), y = height - 18;
+    context.font = "12px system-ui, sans-serif";
+    context.textAlign = "left";
+    context.lineCap = "butt";
+    for (const [rim, ink] of [[5, "--canvas"], [2, "--ink"]]) {
+      context.strokeStyle = color(ink);
+      context.lineWidth = rim;
+      context.beginPath();
+      context.moveTo(16, y - 5); context.lineTo(16, y); context.lineTo(16 + length * camera.scale, y); context.lineTo(16 + length * camera.scale, y - 5);
+      context.stroke();
+    }
+    this.outlined(show(length) + " m", 20, y - 7);
+    if (!options.forces || recording.contact_numbers.length === 0) return;
+    const pixels = (50 * options.arrowScale) / this.force, force = niceBelow(90 / pixels);
+    const start = 16 + length * camera.scale + 36;
+    this.arrow(start, y, force * pixels, 0);
+    this.outlined(show(force) + " N", start + 2, y - 7);
+  }
+
+  /** Index of the body under a pixel, moving ones first; −1 if there is none. */
+  bodyAt(px, py) {
+    if (!this.poses) return -1;
+    const [x, y] = this.toWorld(px, py), slack = 6 / this.camera.scale;
+    let best = -1, bestRank = Infinity;
+    recording.bodies.forEach((body, index) => {
+      const pose = this.poses[index], dx = x - pose.x, dy = y - pose.y;
+      const point = [pose.cos * dx + pose.sin * dy, -pose.sin * dx + pose.cos * dy];
+      const distance = Math.min(...body.shapes.map(({ geometry }) => distanceTo(geometry, point)));
+      const rank = Math.max(distance, 0) + (body.kind === "static" ? slack : 0) + (body.shapes.every((shape) => shape.sensor) ? slack : 0);
+      if (distance <= slack && rank <= bestRank) { best = index; bestRank = rank; }
+    });
+    return best;
+  }
+}
+
+/** Largest distance of a body's surface from its centre of mass; infinite for a half-plane. */
+function bodyReach(body) {
+  return body.shapes.reduce((reach, { geometry }) => Math.max(reach,
+    geometry.Rod ? Math.max(Math.hypot(...geometry.Rod.from), Math.hypot(...geometry.Rod.to)) + geometry.Rod.radius
+    : geometry.Disc ? Math.hypot(...geometry.Disc.centre) + geometry.Disc.radius
+    : geometry.Polygon ? Math.max(...geometry.Polygon.points.map((point) => Math.hypot(...point)))
+    : Infinity), 0);
+}
+
+/** Distance from a point of the body frame to a shape, at most 0 inside. */
+function distanceTo(geometry, [x, y]) {
+  const toSegment = ([ax, ay], [bx, by]) => {
+    const [ex, ey] = [bx - ax, by - ay];
+    const share = Math.min(Math.max(((x - ax) * ex + (y - ay) * ey) / (ex * ex + ey * ey || 1), 0), 1);
+    return Math.hypot(x - ax - share * ex, y - ay - share * ey);
+  };
+  if (geometry.Rod) return toSegment(geometry.Rod.from, geometry.Rod.to) - geometry.Rod.radius;
+  if (geometry.Disc) return Math.hypot(x - geometry.Disc.centre[0], y - geometry.Disc.centre[1]) - geometry.Disc.radius;
+  if (geometry.HalfPlane) {
+    const { point, normal } = geometry.HalfPlane;
+    return (x - point[0]) * normal[0] + (y - point[1]) * normal[1];
+  }
+  const corners = geometry.Polygon.points;
+  const edges = corners.map((corner, i) => [corner, corners[(i + 1) % corners.length]]);
+  const inside = edges.every(([[ax, ay], [bx, by]]) => (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0);
+  return inside ? 0 : Math.min(...edges.map(([from, to]) => toSegment(from, to)));
+}
