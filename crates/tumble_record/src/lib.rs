@@ -15,6 +15,7 @@ mod channel;
 mod files;
 mod fingerprint;
 mod names;
+mod output;
 pub mod plot;
 mod recording;
 pub mod replay;
@@ -27,6 +28,7 @@ pub use channel::{
 };
 pub use files::{Completeness, FileAction, FileError, OutputFolder, PreparedFiles, write_file};
 pub use fingerprint::{Fingerprint, FingerprintHasher, ParseFingerprintError};
+pub use output::{OutputError, write_run};
 pub use recording::{
     AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, Touch,
     TouchPhase,

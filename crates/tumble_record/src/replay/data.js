@@ -102,10 +102,12 @@ function show(value, digits = 4) {
   return text.replace(/-/g, "−");
 }
 
-/** A colour of the style sheet. */
+/** A colour of the style sheet; remembered, because asking the browser is slow. */
 function color(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  if (!colors.has(name)) colors.set(name, getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+  return colors.get(name);
 }
+const colors = new Map();
 
 /** Makes a canvas as fine as the screen; returns its context, in CSS pixels, and its size. */
 function sharpCanvas(canvas) {

@@ -159,7 +159,7 @@ fn thinned(recording: &Recording) -> Vec<&Sample> {
     let every = |stride: usize| {
         let kept = recording.samples.iter().step_by(stride);
         // The last sample shows how it ended.
-        kept.chain(recording.samples.last().filter(|_| count > 0 && (count - 1) % stride != 0))
+        kept.chain(recording.samples.last().filter(|_| count > 0 && !(count - 1).is_multiple_of(stride)))
     };
     let contacts = |stride| every(stride).map(|sample| sample.contacts.len()).sum::<usize>();
     while stride < count && contacts(stride) > MOST_CONTACTS {

@@ -204,7 +204,7 @@ function followHash() {
   if (match && Number.isFinite(Number(match[1]))) { pause(); goTo(Number(match[1])); }
 }
 window.addEventListener("hashchange", followHash);
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { colors.clear(); redraw(); });
 new ResizeObserver(() => { if (view.fitted) view.everFitted = false; redraw(); }).observe(element("stage"));
 
 showPlaying();

@@ -40,7 +40,9 @@ class View {
     const room = { x: Math.max(this.canvas.clientWidth - 100, 50), y: Math.max(this.canvas.clientHeight - 150, 50) };
     this.camera.scale = Math.min(room.x / width, room.y / height);
     this.camera.x = (box.left + box.right) / 2;
-    this.camera.y = (box.low + box.high) / 2 - 12 / this.camera.scale;
+    // Spare height goes above rather than below, where there is mostly ground.
+    const spare = Math.max(room.y - height * this.camera.scale, 0);
+    this.camera.y = (box.low + box.high) / 2 + (0.2 * spare - 12) / this.camera.scale;
     this.fitted = true;
   }
 
