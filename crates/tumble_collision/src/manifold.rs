@@ -35,6 +35,11 @@ impl ContactKind {
     pub const ALL: [Self; 6] =
         [Self::VertexFace, Self::VertexVertex, Self::RoundFace, Self::RoundVertex, Self::RoundRound, Self::EdgeEdge];
 
+    /// Whether one of the two features is a side.
+    pub const fn is_on_face(self) -> bool {
+        matches!(self, Self::VertexFace | Self::RoundFace)
+    }
+
     /// The stable name, such as `vertex-face`.
     pub const fn as_str(self) -> &'static str {
         match self {
@@ -78,6 +83,12 @@ impl FeatureId {
     /// Corner `vertex_a` of a on corner `vertex_b` of b.
     pub const fn vertices(vertex_a: usize, vertex_b: usize) -> Self {
         Self(2 << 30 | Self::vertex_of_a(vertex_a).0 | vertex_b as u32 & Self::INDEX_MASK)
+    }
+
+    /// The numbers of a's and b's corner, if it is one of each.
+    pub const fn as_vertices(self) -> Option<(usize, usize)> {
+        let (a, b) = (self.0 >> Self::INDEX_BITS & Self::INDEX_MASK, self.0 & Self::INDEX_MASK);
+        if self.0 >> 30 == 2 { Some((a as usize, b as usize)) } else { None }
     }
 }
 
