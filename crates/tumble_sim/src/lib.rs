@@ -1,1 +1,41 @@
-#![doc = "..."]
+//! Rigid bodies as components, and the systems that move them. The only crate that knows `bevy_ecs`.
+//!
+//! [`Simulation`] owns a world and the schedule of a step; [`schedule`] is the page to read first.
+
+pub mod body;
+pub mod clock;
+pub mod contact;
+pub mod error;
+pub mod fault;
+pub mod force;
+pub mod geometry;
+pub mod integrate;
+mod needs;
+pub mod notice;
+pub mod part;
+pub mod schedule;
+pub mod settings;
+mod simulation;
+pub mod structure;
+
+pub use body::{
+    Acceleration, AngularAcceleration, AngularVelocity, BodyEntry, BodyId, BodyIndex, BodyInertia, BodyKind, BodyTable,
+    BodyView, Force, InDim, InverseInertia, InverseMass, Keyframe, Keyframes, LinearVelocity, Lock, LockedAxes, Mass,
+    MassOverride, Orientation, Pinned, Position, PreviousVelocity, Torque,
+};
+pub use clock::Clock;
+pub use contact::{
+    ContactManifold, ContactMemory, ContactPair, ContactReport, IgnoredPairs, Materials, PairKey, PointMemory, Touch,
+    TouchPhase,
+};
+pub use error::{BodyError, StepError, UnknownBody};
+pub use force::{Anchor, AppliedForce, Axes, ForceCourse, GravityScale, LinearDrag, QuadraticDrag, Spring};
+pub use geometry::Geometry;
+pub use notice::Notices;
+pub use part::{Amount, Groups, MaterialId, Part, PartOf, Parts, Response};
+pub use schedule::{ForceSystems, StepSystems};
+pub use settings::{
+    ContactModel, ImpulseSettings, Integrator, PenaltyLaw, PenaltySettings, Settings, SpringDamperSettings,
+};
+pub use simulation::{Beginning, Simulation};
+pub use structure::Structure;

@@ -40,9 +40,10 @@ pub struct ImpactSettings {
 pub struct Approach {
     /// Added to the approach speed of the first impulse before restitution reads it [m/s].
     pub correction: f64,
-    /// Extra separating speed of a rebound, ½|a|Δt for symplectic Euler whose velocities run half a step ahead of its positions;
-    /// a rebound weaker than this would not leave the surface within the step, and is rest [m/s].
+    /// Extra separating speed of a rebound: ½|a|Δt for symplectic Euler, whose velocities run half a step ahead of its positions [m/s].
     pub half_step: f64,
+    /// A rebound no faster than this would not leave the surface within the step, and is rest [m/s].
+    pub rest_below: f64,
 }
 
 /// Resolves all colliding contacts of `rows`.
@@ -97,9 +98,9 @@ pub fn resolve_one_by_one<D: Dim>(
 
 /// Separating speed after an impact at `approach` speed; uses up the correction [m/s].
 fn rebound_speed(approach: f64, restitution: f64, reading: &mut Approach) -> f64 {
-    let Approach { correction, half_step } = std::mem::take(reading);
+    let Approach { correction, half_step, rest_below } = std::mem::take(reading);
     let rebound = restitution * (approach + correction).max(0.0);
-    if rebound > half_step { rebound + half_step } else { 0.0 }
+    if rebound > rest_below { rebound + half_step } else { 0.0 }
 }
 
 /// The impulse, in the contact frame, after which a point separates at `rebound` and sticks or slides [N·s].

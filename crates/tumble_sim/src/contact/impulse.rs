@@ -1,0 +1,215 @@
+//! The impulse model's three systems: velocity filter, position filter, one-by-one impulses.
+
+use bevy_ecs::prelude::*;
+use tumble_math::{Dim, Linear};
+use tumble_solver::filter::{FilterSettings, filter_velocities as filter_slices};
+use tumble_solver::impact::{Approach, ImpactSettings, resolve_one_by_one};
+use tumble_solver::position::{Displacements, PositionSettings};
+use tumble_solver::{ContactRow, Slip};
+
+use super::problem::{BodyQuery, ContactProblem, ContactReport, PairQuery, Points};
+use super::{Detection, PointMemory};
+use crate::fault::Fault;
+use crate::geometry::Geometry;
+use crate::schedule::StepSystems;
+use crate::settings::Integrator;
+use crate::simulation::Beginning;
+use crate::{Clock, Settings};
+
+/// Displacements found by the position filter, for the positions that are about to be updated.
+#[derive(Resource, Debug)]
+pub struct PositionCorrections<D: Dim>(Displacements<D>);
+
+impl<D: Dim> Default for PositionCorrections<D> {
+    fn default() -> Self {
+        Self(Displacements::default())
+    }
+}
+
+impl<D: Dim> PositionCorrections<D> {
+    /// Displacement [m] and turn [rad] of a body; `None` where nothing is displaced.
+    pub fn of(&self, index: u32) -> Option<(D::Vector, D::Angular)> {
+        self.0.bodies.get(index as usize).map(|body| (body.velocity, body.angular_velocity))
+    }
+}
+
+/// Takes out of the velocities what touching contacts forbid; see [`tumble_solver::filter`].
+pub fn filter_velocities<D: Geometry>(
+    settings: Res<Settings<D>>,
+    detection: Res<Detection<D>>,
+    mut problem: ResMut<ContactProblem<D>>,
+    mut report: ResMut<ContactReport>,
+    mut fault: ResMut<Fault>,
+    mut pairs: PairQuery<D>,
+    mut bodies: BodyQuery<D>,
+) {
+    let problem = &mut *problem;
+    problem.gather_rows(&detection, &pairs, Points::Near, settings.touch_tolerance());
+    if problem.rows.is_empty() {
+        return;
+    }
+    problem.gather_bodies(&bodies, detection.motions().len());
+    if problem.touching == 0 {
+        return;
+    }
+    let filter = FilterSettings {
+        iterations: settings.impulse.iterations,
+        tolerance: settings.impulse.tolerance * settings.length_scale,
+    };
+    let touching = &mut problem.rows[..problem.touching];
+    report.add(filter_slices(&mut problem.bodies, touching, &mut problem.scratch, &filter));
+    problem.scatter_bodies(&mut bodies, &mut fault, StepSystems::FilterVelocities);
+
+    for (row, source) in problem.rows.iter().zip(&problem.sources).take(problem.touching) {
+        if let Ok((.., mut memory)) = pairs.get_mut(source.entity) {
+            let memory = &mut memory.bypass_change_detection().0.as_mut()[source.point as usize];
+            (memory.impulse, memory.slip) = (row.impulse, row.slip);
+            memory.given += row.impulse;
+        }
+    }
+}
+
+/// Finds the displacements that keep gaps from closing beyond touch and take out overlaps; see [`tumble_solver::position`].
+pub fn filter_positions<D: Geometry>(
+    clock: Res<Clock>,
+    settings: Res<Settings<D>>,
+    mut problem: ResMut<ContactProblem<D>>,
+    mut corrections: ResMut<PositionCorrections<D>>,
+    fault: Res<Fault>,
+    bodies: BodyQuery<D>,
+) {
+    let problem = &mut *problem;
+    if problem.rows.is_empty() || !fault.is_none() {
+        corrections.0.bodies.clear();
+        return;
+    }
+    // Users may have changed velocities since they were filtered.
+    problem.gather_mean_velocities(&bodies);
+    let filter = PositionSettings {
+        iterations: settings.impulse.iterations,
+        tolerance: settings.impulse.tolerance * settings.length_scale,
+        slop: settings.slop(),
+        recovery: settings.impulse.recovery,
+    };
+    corrections.0.find(&problem.bodies, &problem.rows, clock.dt, &filter);
+}
+
+/// Lets colliding contacts bounce; see [`tumble_solver::impact`].
+pub fn resolve_impulses<D: Geometry>(
+    clock: Res<Clock>,
+    beginning: Res<Beginning>,
+    settings: Res<Settings<D>>,
+    detection: Res<Detection<D>>,
+    mut problem: ResMut<ContactProblem<D>>,
+    mut report: ResMut<ContactReport>,
+    mut fault: ResMut<Fault>,
+    mut pairs: PairQuery<D>,
+    mut bodies: BodyQuery<D>,
+) {
+    if !fault.is_none() {
+        return;
+    }
+    let problem = &mut *problem;
+    problem.gather_rows(&detection, &pairs, Points::Touching, settings.touch_tolerance());
+    if problem.rows.is_empty() {
+        return;
+    }
+    problem.gather_bodies(&bodies, detection.motions().len());
+    let impact = ImpactSettings {
+        colliding_above: settings.impulse.colliding_above * settings.length_scale,
+        impulses_per_contact: settings.impulse.impulses_per_contact,
+    };
+    let colliding = |row: &ContactRow<D>| -row.separating_speed(&problem.bodies) > impact.colliding_above;
+    if !problem.rows.iter().any(colliding) {
+        return;
+    }
+
+    let reading = Reading { dt: clock.dt, integrator: settings.integrator, touch_tolerance: settings.touch_tolerance() };
+    let mut approaches: Vec<Approach> = problem
+        .rows
+        .iter()
+        .zip(&problem.sources)
+        .map(|(row, source)| match (*beginning, pairs.get(source.entity)) {
+            (Beginning::No, Ok((.., memory))) => {
+                let memory = &memory.0.as_ref()[source.point as usize];
+                reading.approach(row, -row.separating_speed(&problem.bodies), memory, &detection)
+            }
+            _ => Approach::default(),
+        })
+        .collect();
+    let solved =
+        resolve_one_by_one(&mut problem.bodies, &problem.rows, &mut approaches, &mut problem.scratch, &impact);
+    report.add(solved);
+    problem.scatter_bodies(&mut bodies, &mut fault, StepSystems::ResolveImpulses);
+
+    for ((row, source), given) in problem.rows.iter().zip(&problem.sources).zip(&problem.scratch) {
+        if *given != D::Vector::ZERO
+            && let Ok((.., mut memory)) = pairs.get_mut(source.entity)
+        {
+            let memory = &mut memory.bypass_change_detection().0.as_mut()[source.point as usize];
+            memory.given += *given;
+            memory.slip = slip_after(row, &problem.bodies, settings.impulse.tolerance * settings.length_scale);
+        }
+    }
+}
+
+/// Whether a point slides after its impact.
+fn slip_after<D: Geometry>(row: &ContactRow<D>, bodies: &[tumble_solver::SolverBody<D>], tolerance: f64) -> Slip {
+    let slip = tumble_solver::contact::tangential(row.relative_velocity(bodies));
+    if slip.length() > 10.0 * tolerance { Slip::Sliding } else { Slip::Sticking }
+}
+
+/// How to read the approach speed of a point at the end of a step.
+struct Reading {
+    dt: f64,
+    integrator: Integrator,
+    touch_tolerance: f64,
+}
+
+impl Reading {
+    /// Corrects the approach speed of a point for the acceleration that its velocity contains.
+    ///
+    /// A point whose gap s closed within the step met the surface before the step ended, so its velocity has gained too much.
+    /// Its speed at the surface follows from energy, with a_n the acceleration of the gap and v the velocity at the end:
+    ///
+    /// ```text
+    /// w² = v₀² − 2 a_n s        v₀ = v − a_n Δt      ballistic
+    ///                           v₀ = v − ½ a_n Δt    symplectic Euler, whose velocities run half a step ahead
+    /// ```
+    ///
+    /// With it, ε = 1 keeps the (discrete) energy exactly. A point that touched before the step approaches by what solver and
+    /// round-off left, which restitution does not answer.
+    fn approach<D: Geometry>(
+        &self,
+        row: &ContactRow<D>,
+        approach: f64,
+        memory: &PointMemory<D::Vector>,
+        detection: &Detection<D>,
+    ) -> Approach {
+        let touched_before = memory.separation_before.is_some_and(|separation| separation <= self.touch_tolerance);
+        if touched_before {
+            return Approach { correction: -approach.max(0.0), ..Approach::default() };
+        }
+        let gained = self.acceleration(row, detection) * self.dt;
+        let (ahead, half_step) = match self.integrator {
+            Integrator::SymplecticEuler => (0.5 * gained, (-0.5 * gained).max(0.0)),
+            Integrator::Ballistic => (gained, 0.0),
+        };
+        let before = -approach - ahead;
+        let at_surface = match memory.separation_before {
+            Some(gap) => (before * before - 2.0 * gained / self.dt * gap).max(0.0).sqrt(),
+            // Nothing is known of the way here: it took the whole step.
+            None => (-approach + gained - ahead).abs(),
+        };
+        Approach { correction: at_surface - approach, half_step, rest_below: (-0.5 * gained).max(0.0) }
+    }
+
+    /// Acceleration of the gap by the forces of the step [m/s²].
+    fn acceleration<D: Geometry>(&self, row: &ContactRow<D>, detection: &Detection<D>) -> f64 {
+        let of = |body: u32, arm: D::Vector| {
+            let motion = &detection.motions()[body as usize];
+            motion.acceleration + D::spin(motion.angular_acceleration, arm)
+        };
+        row.normal().dot(of(row.b, row.arm_b) - of(row.a, row.arm_a))
+    }
+}

@@ -1,0 +1,75 @@
+//! Contact entities and their components.
+
+use bevy_ecs::prelude::*;
+use tumble_collision::FeatureId;
+use tumble_math::Linear;
+use tumble_solver::{Slip, Surface};
+
+use crate::body::BodyId;
+use crate::geometry::Geometry;
+use crate::part::Response;
+
+/// Identity of a pair of parts; its order is the order of everything done with contacts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PairKey {
+    /// Body with the smaller id.
+    pub a: BodyId,
+    /// The other body.
+    pub b: BodyId,
+    /// Number of a's part.
+    pub part_a: u32,
+    /// Number of b's part.
+    pub part_b: u32,
+}
+
+/// Two parts that are near each other: one entity while their grown bounds overlap.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct ContactPair {
+    /// Which parts.
+    pub key: PairKey,
+    /// Ranks of the two bodies.
+    pub bodies: [u32; 2],
+    /// Ranks of the two parts in [`Colliders`](super::Colliders).
+    pub colliders: [u32; 2],
+    /// Friction and restitution of the pair.
+    pub surface: Surface,
+    /// Whether the parts push each other.
+    pub response: Response,
+    /// Whether some point touches.
+    pub touching: bool,
+}
+
+/// Where the two parts touch or nearly do.
+#[derive(Component, Clone, Debug)]
+pub struct ContactManifold<D: Geometry>(pub D::Manifold);
+
+/// What is remembered of each point of the manifold, in the same order.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct ContactMemory<D: Geometry>(pub D::PerPoint<PointMemory<D::Vector>>);
+
+/// What is remembered of a contact point from step to step.
+#[derive(Clone, Copy, Debug)]
+pub struct PointMemory<V> {
+    /// Which features made the point.
+    pub feature: FeatureId,
+    /// Impulse with which the velocity filter begins, in the contact frame [N·s].
+    pub impulse: V,
+    /// Whether the point slides.
+    pub slip: Slip,
+    /// Sum of the impulses of this step, in the contact frame [N·s].
+    pub given: V,
+    /// Separation found by the detection before; `None` for a new point [m].
+    pub separation_before: Option<f64>,
+}
+
+impl<V: Linear> Default for PointMemory<V> {
+    fn default() -> Self {
+        Self {
+            feature: FeatureId(0),
+            impulse: V::ZERO,
+            slip: Slip::default(),
+            given: V::ZERO,
+            separation_before: None,
+        }
+    }
+}

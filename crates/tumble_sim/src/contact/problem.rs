@@ -1,0 +1,186 @@
+//! Contacts and bodies as the slices that contact models work on, gathered from the world and scattered back.
+
+use bevy_ecs::prelude::*;
+use tumble_math::{Dim, Inertia, Linear};
+use tumble_solver::{ContactRow, Ending, Report, SolverBody};
+
+use super::{ContactManifold, ContactMemory, ContactPair, Detection, PairKey};
+use crate::body::{AngularVelocity, BodyIndex, InverseInertia, InverseMass, LinearVelocity, Orientation, PreviousVelocity};
+use crate::fault::{Fault, Quantity};
+use crate::geometry::Geometry;
+use crate::part::Response;
+use crate::schedule::StepSystems;
+
+/// What the contact solvers did in this step.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactReport(pub Option<Report>);
+
+impl ContactReport {
+    /// Adds the report of one solver: work adds up, the worst error stays.
+    pub(crate) fn add(&mut self, report: Report) {
+        let sum = self.0.get_or_insert_with(Report::default);
+        sum.iterations += report.iterations;
+        sum.residual = sum.residual.max(report.residual);
+        if report.ending == Ending::NotConverged {
+            sum.ending = Ending::NotConverged;
+        }
+    }
+}
+
+/// Bodies by rank, and contact points in the order of their pairs.
+#[derive(Resource, Debug)]
+pub struct ContactProblem<D: Geometry> {
+    /// Bodies, by rank.
+    pub(super) bodies: Vec<SolverBody<D>>,
+    /// Touching points first, then those with a gap; each part in the order of pairs and features.
+    pub(super) rows: Vec<ContactRow<D>>,
+    /// Where each row comes from.
+    pub(super) sources: Vec<RowSource>,
+    /// How many rows touch.
+    pub(super) touching: usize,
+    pairs: Vec<(PairKey, Entity)>,
+    near: Vec<(ContactRow<D>, RowSource)>,
+    pub(super) scratch: Vec<D::Vector>,
+}
+
+/// Where a row comes from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RowSource {
+    pub entity: Entity,
+    pub point: u8,
+}
+
+impl<D: Geometry> Default for ContactProblem<D> {
+    fn default() -> Self {
+        Self {
+            bodies: Vec::new(),
+            rows: Vec::new(),
+            sources: Vec::new(),
+            touching: 0,
+            pairs: Vec::new(),
+            near: Vec::new(),
+            scratch: Vec::new(),
+        }
+    }
+}
+
+/// The components of a body that a contact model reads and writes.
+pub(super) type BodyQuery<'w, 's, D> = Query<
+    'w,
+    's,
+    (
+        &'static BodyIndex,
+        &'static mut LinearVelocity<<D as Dim>::Vector>,
+        &'static mut AngularVelocity<<D as Dim>::Angular>,
+        &'static InverseMass<<D as Dim>::Vector>,
+        &'static InverseInertia<<D as Dim>::Inertia>,
+        &'static Orientation<<D as Dim>::Rotation>,
+        Option<&'static PreviousVelocity<<D as Dim>::Vector, <D as Dim>::Angular>>,
+    ),
+>;
+
+/// The components of a contact entity.
+pub(super) type PairQuery<'w, 's, D> =
+    Query<'w, 's, (Entity, &'static ContactPair, &'static ContactManifold<D>, &'static mut ContactMemory<D>)>;
+
+/// Which points are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Points {
+    /// Those that touch.
+    Touching,
+    /// Those with a gap as well.
+    Near,
+}
+
+impl<D: Geometry> ContactProblem<D> {
+    /// Gathers the points of solid pairs.
+    pub(super) fn gather_rows(
+        &mut self,
+        detection: &Detection<D>,
+        pairs: &PairQuery<D>,
+        wanted: Points,
+        touch_tolerance: f64,
+    ) {
+        self.pairs.clear();
+        self.rows.clear();
+        self.sources.clear();
+        self.near.clear();
+        for (entity, pair, manifold, _) in pairs {
+            let wanted = wanted == Points::Near || pair.touching;
+            if wanted && pair.response == Response::Solid && !D::points(&manifold.0).is_empty() {
+                self.pairs.push((pair.key, entity));
+            }
+        }
+        // Pairs come in the order of their birth; anything computed from them goes by key.
+        if !self.pairs.is_sorted() {
+            self.pairs.sort_unstable();
+        }
+        for &(_, entity) in &self.pairs {
+            let Ok((_, pair, manifold, memory)) = pairs.get(entity) else { continue };
+            let frame = D::contact_frame(D::normal(&manifold.0));
+            let [a, b] = pair.bodies;
+            let [at_a, at_b] = pair.bodies.map(|body| detection.motions()[body as usize].pose.position);
+            let points = D::points(&manifold.0).iter().zip(memory.0.as_ref());
+            for (number, (point, memory)) in points.enumerate() {
+                let row = ContactRow {
+                    a,
+                    b,
+                    frame,
+                    arm_a: point.point - at_a,
+                    arm_b: point.point - at_b,
+                    separation: point.separation,
+                    surface: pair.surface,
+                    impulse: memory.impulse,
+                    slip: memory.slip,
+                };
+                let source = RowSource { entity, point: number as u8 };
+                if point.separation <= touch_tolerance {
+                    self.rows.push(row);
+                    self.sources.push(source);
+                } else if wanted == Points::Near {
+                    self.near.push((row, source));
+                }
+            }
+        }
+        self.touching = self.rows.len();
+        for (row, source) in self.near.drain(..) {
+            self.rows.push(row);
+            self.sources.push(source);
+        }
+    }
+
+    /// Gathers velocities and inverse masses of all bodies.
+    pub(super) fn gather_bodies(&mut self, bodies: &BodyQuery<D>, count: usize) {
+        self.bodies.resize_with(count, SolverBody::default);
+        for (index, velocity, spin, inverse_mass, inverse_inertia, orientation, _) in bodies {
+            self.bodies[index.0 as usize] = SolverBody {
+                velocity: velocity.0,
+                angular_velocity: spin.0,
+                inverse_mass: inverse_mass.0,
+                inverse_inertia: inverse_inertia.0.in_world(&orientation.0),
+            };
+        }
+    }
+
+    /// Sets the velocities with which bodies are going to move: for ballistic bodies the mean over the step.
+    pub(super) fn gather_mean_velocities(&mut self, bodies: &BodyQuery<D>) {
+        for (index, velocity, spin, .., previous) in bodies {
+            let body = &mut self.bodies[index.0 as usize];
+            (body.velocity, body.angular_velocity) = match previous {
+                None => (velocity.0, spin.0),
+                Some(previous) => ((previous.linear + velocity.0) * 0.5, (previous.angular + spin.0) * 0.5),
+            };
+        }
+    }
+
+    /// Writes the velocities back.
+    pub(super) fn scatter_bodies(&self, bodies: &mut BodyQuery<D>, fault: &mut Fault, phase: StepSystems) {
+        for (index, mut velocity, mut spin, ..) in bodies.iter_mut() {
+            let body = &self.bodies[index.0 as usize];
+            let finite = body.velocity.is_finite() && body.angular_velocity.is_finite();
+            fault.check(finite, index.0, Quantity::Velocity, phase);
+            velocity.bypass_change_detection().0 = body.velocity;
+            spin.bypass_change_detection().0 = body.angular_velocity;
+        }
+    }
+}

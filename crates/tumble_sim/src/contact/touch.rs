@@ -1,0 +1,26 @@
+//! Messages about the begin and end of touch.
+
+use bevy_ecs::prelude::*;
+
+use super::PairKey;
+use crate::part::Response;
+
+/// Which end of a touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum TouchPhase {
+    /// Two parts touch that did not in the step before.
+    Began,
+    /// Two parts no longer touch.
+    Ended,
+}
+
+/// Two parts began or ceased to touch. Within a step: in the order of pairs, by body ids and part numbers.
+#[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Touch {
+    /// Began or ended.
+    pub phase: TouchPhase,
+    /// The two parts.
+    pub pair: PairKey,
+    /// Sensor if one of the parts is.
+    pub response: Response,
+}

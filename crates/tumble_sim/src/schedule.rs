@@ -1,0 +1,180 @@
+//! The step, on one page.
+//!
+//! | # | Phase | Reads | Writes |
+//! |---|---|---|---|
+//! | 1 | `AccumulateForces` | state, contacts¹ | `Force`, `Torque` |
+//! | 2 | `ComputeAccelerations` | `Force`, `Torque`, inverse masses | `Acceleration`, `AngularAcceleration` |
+//! | 3 | `FilterVelocities` | accelerations, contacts¹ | `LinearVelocity`, `AngularVelocity` |
+//! | 4 | `UpdatePositions` | velocities, contacts¹ | `Position`, `Orientation` |
+//! | 5 | `DetectCollisions` | state | contact entities, [`Touch`](crate::Touch) messages |
+//! | 6 | `ResolveImpulses` | contacts², velocities | velocities |
+//!
+//! ¹ as found by phase 5 of the step before; a new or edited simulation runs phases 5 and 6 once before its step. ² as found in this step.
+//!
+//! | Model | phase 1 | phase 3 | phase 4 | phase 6 |
+//! |---|---|---|---|---|
+//! | penalty | spring and damper per point | – | – | – |
+//! | impulse | – | touching contacts, accumulated impulses | no gap closes beyond touch | colliding contacts, worst first |
+
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
+
+use crate::body::follow_keyframes;
+use crate::contact::{
+    apply_lecture_floor, apply_penalty_forces, filter_positions, filter_velocities, find_contacts, find_pairs,
+    resolve_impulses, sync_pairs,
+};
+use crate::force::{
+    apply_forces, apply_gravity, apply_linear_drag, apply_quadratic_drag, apply_scaled_gravity, apply_springs,
+};
+use crate::geometry::Geometry;
+use crate::integrate::{
+    clear_forces, compute_accelerations, integrate_velocities, remember_velocities, update_positions,
+};
+use crate::needs::Need;
+
+/// The phases of a step, in the order they run. Hook your own systems between them.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum StepSystems {
+    /// Sum gravity, drag, springs, the user's forces and penalty contacts.
+    AccumulateForces,
+    /// a = M⁻¹ f, through the inverse-mass filter.
+    ComputeAccelerations,
+    /// v += a Δt; then contacts take out what they forbid.
+    FilterVelocities,
+    /// x += v Δt; turn by ω Δt; keep gaps from closing beyond touch.
+    UpdatePositions,
+    /// Near pairs, then contact points, then what is remembered of them.
+    DetectCollisions,
+    /// Bounce where bodies still approach.
+    ResolveImpulses,
+}
+
+/// The parts of [`StepSystems::AccumulateForces`], in order.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ForceSystems {
+    /// Forget the forces of the last step.
+    Clear,
+    /// Gravity, drag, springs, applied forces.
+    BuiltIn,
+    /// The user's forces, in the order in which they were added.
+    User,
+    /// Penalty contacts.
+    ContactForces,
+}
+
+/// The user's forces, one after the other.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct UserForce(pub usize);
+
+/// Every system in its place; each is added once, when something needs it.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Place {
+    Gravity,
+    ScaledGravity,
+    LinearDrag,
+    QuadraticDrag,
+    Springs,
+    Applied,
+    Remember,
+    Keyframes,
+    Integrate,
+    Filter,
+    FilterPositions,
+    Move,
+}
+
+/// The schedule of one step.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Step;
+
+/// Phases 5 and 6 alone, before the first step and after edits.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Begin;
+
+/// A schedule that runs on one thread, and in which systems that race are an error.
+fn sequential(label: impl ScheduleLabel) -> Schedule {
+    let mut schedule = Schedule::new(label);
+    schedule.set_executor(SingleThreadedExecutor::new());
+    schedule.set_build_settings(ScheduleBuildSettings { ambiguity_detection: LogLevel::Error, ..Default::default() });
+    schedule
+}
+
+/// The step without any force or contact model: those are added when [needed](Need).
+pub(crate) fn step_schedule<D: Geometry>() -> Schedule {
+    use StepSystems::{
+        AccumulateForces, ComputeAccelerations, DetectCollisions, FilterVelocities, ResolveImpulses, UpdatePositions,
+    };
+    let mut schedule = sequential(Step);
+    schedule.configure_sets(
+        (AccumulateForces, ComputeAccelerations, FilterVelocities, UpdatePositions, DetectCollisions, ResolveImpulses)
+            .chain(),
+    );
+    schedule.configure_sets(
+        (ForceSystems::Clear, ForceSystems::BuiltIn, ForceSystems::User, ForceSystems::ContactForces)
+            .chain()
+            .in_set(AccumulateForces),
+    );
+    schedule.configure_sets(
+        (
+            Place::Gravity,
+            Place::ScaledGravity,
+            Place::LinearDrag,
+            Place::QuadraticDrag,
+            Place::Springs,
+            Place::Applied,
+        )
+            .chain()
+            .in_set(ForceSystems::BuiltIn),
+    );
+    schedule.configure_sets(
+        (Place::Remember, Place::Keyframes, Place::Integrate, Place::Filter).chain().in_set(FilterVelocities),
+    );
+    schedule.configure_sets((Place::FilterPositions, Place::Move).chain().in_set(UpdatePositions));
+    schedule.add_systems((
+        clear_forces::<D>.in_set(ForceSystems::Clear),
+        compute_accelerations::<D>.in_set(ComputeAccelerations),
+        integrate_velocities::<D>.in_set(Place::Integrate),
+        update_positions::<D>.in_set(Place::Move),
+    ));
+    schedule
+}
+
+/// Phases 5 and 6 alone.
+pub(crate) fn begin_schedule() -> Schedule {
+    let mut schedule = sequential(Begin);
+    schedule.configure_sets((StepSystems::DetectCollisions, StepSystems::ResolveImpulses).chain());
+    schedule
+}
+
+/// Registers the systems of a need.
+pub(crate) fn add_systems<D: Geometry>(need: Need, step: &mut Schedule, begin: &mut Schedule) {
+    match need {
+        Need::Gravity => step.add_systems(apply_gravity::<D>.in_set(Place::Gravity)),
+        Need::ScaledGravity => step.add_systems(apply_scaled_gravity::<D>.in_set(Place::ScaledGravity)),
+        Need::LinearDrag => step.add_systems(apply_linear_drag::<D>.in_set(Place::LinearDrag)),
+        Need::QuadraticDrag => step.add_systems(apply_quadratic_drag::<D>.in_set(Place::QuadraticDrag)),
+        Need::Springs => step.add_systems(apply_springs::<D>.in_set(Place::Springs)),
+        Need::AppliedForces => step.add_systems(apply_forces::<D>.in_set(Place::Applied)),
+        Need::Keyframes => step.add_systems(follow_keyframes.in_set(Place::Keyframes)),
+        Need::Ballistic => step.add_systems(remember_velocities::<D>.in_set(Place::Remember)),
+        Need::Detection => {
+            begin.add_systems(detection::<D>());
+            step.add_systems(detection::<D>())
+        }
+        Need::Penalty => step.add_systems(apply_penalty_forces::<D>.in_set(ForceSystems::ContactForces)),
+        Need::LectureFloor => step.add_systems(apply_lecture_floor::<D>.in_set(ForceSystems::ContactForces)),
+        Need::Impulse => {
+            begin.add_systems(resolve_impulses::<D>.in_set(StepSystems::ResolveImpulses));
+            step.add_systems((
+                filter_velocities::<D>.in_set(Place::Filter),
+                filter_positions::<D>.in_set(Place::FilterPositions),
+                resolve_impulses::<D>.in_set(StepSystems::ResolveImpulses),
+            ))
+        }
+    };
+}
+
+fn detection<D: Geometry>() -> bevy_ecs::schedule::ScheduleConfigs<bevy_ecs::system::ScheduleSystem> {
+    (find_pairs::<D>, sync_pairs::<D>, find_contacts::<D>).chain().in_set(StepSystems::DetectCollisions)
+}

@@ -1,0 +1,152 @@
+//! Settings of a simulation.
+
+use bevy_ecs::prelude::*;
+use tumble_math::{Dim, Linear, Planar};
+
+/// How positions follow velocities.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Integrator {
+    /// v += a Δt, then x += v Δt (R7). First order; bounded energy error for oscillations.
+    #[default]
+    SymplecticEuler,
+    /// x += v₀ Δt + ½ a Δt², v += a Δt: exact under constant force, second order otherwise. Where contacts or filters change the
+    /// velocity, x moves with the mean of the velocities before and after.
+    Ballistic,
+}
+
+/// Which law answers contacts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactModel {
+    /// One-by-one impulses, and a velocity filter for rest.
+    #[default]
+    Impulse,
+    /// Springs and dampers on overlapping points.
+    Penalty,
+}
+
+/// Settings of the penalty model; see [`tumble_solver::penalty`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PenaltySettings {
+    /// Which force law.
+    pub law: PenaltyLaw,
+}
+
+impl Default for PenaltySettings {
+    fn default() -> Self {
+        Self { law: PenaltyLaw::SpringDamper(SpringDamperSettings::default()) }
+    }
+}
+
+/// Force laws of the penalty model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PenaltyLaw {
+    /// All contacts; spring, damper, regularised Coulomb friction.
+    SpringDamper(SpringDamperSettings),
+    /// The homework's floor to the letter (R9): rod ends on half-planes only.
+    Lecture {
+        /// w: force per depth [N/m].
+        stiffness: f64,
+        /// μ: force per slip speed [N·s/m].
+        viscosity: f64,
+    },
+}
+
+/// Spring and damper of the penalty model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringDamperSettings {
+    /// k of every contact point; `None` chooses it per pair such that Δt is a tenth of the stable bound [N/m].
+    pub stiffness: Option<f64>,
+    /// c of every contact point; `None` chooses it from the restitution of the pair [N·s/m].
+    pub damping: Option<f64>,
+    /// Slip speed at which friction reaches μ_s N [m/s]. Default 0.01: smaller creeps less, and jitters sooner.
+    pub slip_speed: f64,
+}
+
+impl Default for SpringDamperSettings {
+    fn default() -> Self {
+        Self { stiffness: None, damping: None, slip_speed: 0.01 }
+    }
+}
+
+/// Settings of the impulse model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpulseSettings {
+    /// Most sweeps of the velocity filter, and of the position filter, per step [1]. Default 50: more settles tall stacks sooner.
+    pub iterations: u32,
+    /// A sweep that changes no point's speed by more than this is the last [m/s per length scale]. Default 1e-12.
+    pub tolerance: f64,
+    /// A point that approaches faster than this is colliding [m/s per length scale]. Default 1e-9.
+    pub colliding_above: f64,
+    /// Most one-by-one impulses per step and contact point, on average [1]. Default 200.
+    pub impulses_per_contact: u32,
+    /// Part of an overlap beyond the slop that is taken out per step [1]. Default 0.2.
+    pub recovery: f64,
+}
+
+impl Default for ImpulseSettings {
+    fn default() -> Self {
+        Self { iterations: 50, tolerance: 1e-12, colliding_above: 1e-9, impulses_per_contact: 200, recovery: 0.2 }
+    }
+}
+
+/// Settings of a simulation. `Settings::default()` has Δt = 0.01 s and gravity 9.81 m/s² downwards.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct Settings<D: Dim = Planar> {
+    /// Length of a step Δt [s].
+    pub dt: f64,
+    /// Acceleration of free fall [m/s²].
+    pub gravity: D::Vector,
+    /// Size of a typical body; tolerances are multiples of it [m]. Default 1.
+    pub length_scale: f64,
+    /// Overlap that is left alone, so that resting contacts do not flicker on and off [m]. Default 0.005 length scales.
+    pub slop: Option<f64>,
+    /// Farthest travel within a step against which contacts are made beforehand [m]. Default 2 length scales. A body that
+    /// moves further in a step is reported, and may pass through thin things.
+    pub speculative_limit: Option<f64>,
+    /// How positions follow velocities.
+    pub integrator: Integrator,
+    /// Which law answers contacts.
+    pub contact: ContactModel,
+    /// Settings of the penalty model.
+    pub penalty: PenaltySettings,
+    /// Settings of the impulse model.
+    pub impulse: ImpulseSettings,
+}
+
+impl<D: Dim> Settings<D> {
+    /// Default settings without gravity.
+    pub fn weightless() -> Self {
+        Self {
+            dt: 0.01,
+            gravity: D::Vector::ZERO,
+            length_scale: 1.0,
+            slop: None,
+            speculative_limit: None,
+            integrator: Integrator::default(),
+            contact: ContactModel::default(),
+            penalty: PenaltySettings::default(),
+            impulse: ImpulseSettings::default(),
+        }
+    }
+
+    /// Overlap that is left alone [m].
+    pub fn slop(&self) -> f64 {
+        self.slop.unwrap_or(0.005 * self.length_scale)
+    }
+
+    /// Farthest travel within a step against which contacts are made beforehand [m].
+    pub fn speculative_limit(&self) -> f64 {
+        self.speculative_limit.unwrap_or(2.0 * self.length_scale)
+    }
+
+    /// Points nearer than this touch [m].
+    pub fn touch_tolerance(&self) -> f64 {
+        1e-9 * self.length_scale
+    }
+}
+
+impl Default for Settings<Planar> {
+    fn default() -> Self {
+        Self { gravity: glam::DVec2::new(0.0, -9.81), ..Self::weightless() }
+    }
+}

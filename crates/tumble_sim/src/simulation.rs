@@ -1,0 +1,314 @@
+//! A simulation: a world, the schedule of a step, and how to run it.
+
+use std::collections::BTreeSet;
+
+use bevy_ecs::name::Name;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{IntoScheduleConfigs, ScheduleConfigs};
+use bevy_ecs::system::ScheduleSystem;
+use tumble_math::{Dim, Linear, Planar};
+use tumble_solver::Ending;
+
+use crate::Clock;
+use crate::body::{
+    AngularVelocity, BodyId, BodyTable, BodyView, LinearVelocity, Orientation, Position, PreviousVelocity,
+    prepare_bodies,
+};
+use crate::contact::{
+    Colliders, ContactMemory, ContactProblem, ContactReport, Detection, IgnoredPairs, Materials, PointMemory,
+    PositionCorrections, PreviousEnds, Touch, prepare_colliders, renumber_pairs,
+};
+use crate::error::{StepError, UnknownBody};
+use crate::fault::Fault;
+use crate::geometry::Geometry;
+use crate::needs::{Need, needs};
+use crate::notice::Notices;
+use crate::part::{Part, PartOf};
+use crate::schedule::{ForceSystems, UserForce, add_systems, begin_schedule, step_schedule};
+use crate::settings::{Integrator, Settings};
+use crate::structure::Structure;
+
+/// Whether contacts are being detected before a step rather than within it.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Beginning {
+    /// Before: velocities are as the user gave them.
+    Yes,
+    /// Within: velocities contain the accelerations of the step.
+    #[default]
+    No,
+}
+
+/// A world of bodies and the schedule that moves it.
+pub struct Simulation<D: Geometry = Planar> {
+    world: World,
+    step: Schedule,
+    begin: Schedule,
+    after_step: Vec<Box<dyn FnMut(&mut World) + Send + Sync>>,
+    known: BTreeSet<Need>,
+    user_forces: usize,
+    dim: std::marker::PhantomData<D>,
+}
+
+impl<D: Geometry> std::fmt::Debug for Simulation<D> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Simulation").field("clock", self.clock()).finish_non_exhaustive()
+    }
+}
+
+impl Simulation<Planar> {
+    /// An empty simulation in the plane.
+    pub fn new(settings: Settings) -> Self {
+        Self::with_settings(settings)
+    }
+}
+
+impl<D: Geometry> Simulation<D> {
+    /// An empty simulation.
+    pub fn with_settings(settings: Settings<D>) -> Self {
+        let mut world = World::new();
+        world.insert_resource(Clock { step: 0, dt: settings.dt });
+        world.insert_resource(settings);
+        world.init_resource::<Structure>();
+        world.init_resource::<Beginning>();
+        world.init_resource::<BodyTable>();
+        world.init_resource::<Colliders<D>>();
+        world.init_resource::<Detection<D>>();
+        world.init_resource::<ContactProblem<D>>();
+        world.init_resource::<PositionCorrections<D>>();
+        world.init_resource::<PreviousEnds<D>>();
+        world.init_resource::<ContactReport>();
+        world.init_resource::<IgnoredPairs>();
+        world.init_resource::<Materials>();
+        world.init_resource::<Messages<Touch>>();
+        world.init_resource::<Notices>();
+        world.init_resource::<Fault>();
+        Self {
+            world,
+            step: step_schedule::<D>(),
+            begin: begin_schedule(),
+            after_step: Vec::new(),
+            known: BTreeSet::new(),
+            user_forces: 0,
+            dim: std::marker::PhantomData,
+        }
+    }
+
+    /// Adds an entity: a body (anything with a [`Position`]), a spring, an applied force, or something of the user's.
+    pub fn spawn(&mut self, bundle: impl Bundle) -> Entity {
+        let entity = self.world.spawn(bundle).id();
+        let body = self.world.entity(entity);
+        if body.contains::<Position<D::Vector>>() {
+            let nameless = !body.contains::<BodyId>();
+            if nameless {
+                let id = self.next_body_id();
+                self.world.entity_mut(entity).insert(id);
+            }
+            if self.settings().integrator == Integrator::Ballistic {
+                self.world.entity_mut(entity).insert(PreviousVelocity::<D::Vector, D::Angular>::default());
+            }
+        }
+        *self.world.resource_mut::<Structure>() = Structure::Changed;
+        entity
+    }
+
+    /// Attaches a part to a body.
+    pub fn attach(&mut self, body: Entity, part: Part<D>) -> Entity {
+        self.world.spawn((part, PartOf(body))).id()
+    }
+
+    /// Adds a system that adds to [`Force`](crate::Force) or [`Torque`](crate::Torque). Forces run in the order in which they are added.
+    pub fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<ScheduleSystem, M>) {
+        let place = UserForce(self.user_forces);
+        if self.user_forces > 0 {
+            self.step.configure_sets(place.after(UserForce(self.user_forces - 1)));
+        }
+        self.step.configure_sets(place.in_set(ForceSystems::User));
+        let configs: ScheduleConfigs<ScheduleSystem> = system.in_set(place);
+        self.step.add_systems(configs);
+        self.user_forces += 1;
+    }
+
+    /// Adds systems of one's own to the step, ordered against [`StepSystems`](crate::StepSystems).
+    pub fn add_systems<M>(&mut self, systems: impl IntoScheduleConfigs<ScheduleSystem, M>) {
+        self.step.add_systems(systems);
+    }
+
+    /// Calls a function after every step.
+    pub fn after_step(&mut self, function: impl FnMut(&mut World) + Send + Sync + 'static) {
+        self.after_step.push(Box::new(function));
+    }
+
+    /// Takes one step.
+    ///
+    /// # Errors
+    ///
+    /// When a body cannot be simulated, or the state of one is not finite any more; the step is then not counted.
+    pub fn step(&mut self) -> Result<(), StepError> {
+        self.prepare()?;
+        self.forget_last_step();
+        if self.was_edited() {
+            self.world.insert_resource(Beginning::Yes);
+            self.begin.run(&mut self.world);
+            self.world.insert_resource(Beginning::No);
+        }
+        self.step.run(&mut self.world);
+        self.world.clear_trackers();
+        self.check_fault()?;
+        let step = {
+            let mut clock = self.world.resource_mut::<Clock>();
+            clock.step += 1;
+            clock.step
+        };
+        if let Some(report) = self.world.resource::<ContactReport>().0.filter(|r| r.ending == Ending::NotConverged) {
+            self.world.resource_mut::<Notices>().not_converged(report.residual, step);
+        }
+        for function in &mut self.after_step {
+            function(&mut self.world);
+        }
+        Ok(())
+    }
+
+    /// Takes the steps of a duration, rounded to whole steps [s].
+    ///
+    /// # Errors
+    ///
+    /// See [`step`](Self::step).
+    pub fn run_for(&mut self, seconds: f64) -> Result<(), StepError> {
+        let steps = (seconds / self.clock().dt).round();
+        for _ in 0..steps as u64 {
+            self.step()?;
+        }
+        Ok(())
+    }
+
+    /// Rebuilds the tables of bodies and parts if something was added, removed or changed; [`step`](Self::step) does it by itself.
+    ///
+    /// # Errors
+    ///
+    /// When a body cannot be simulated.
+    pub fn prepare(&mut self) -> Result<(), StepError> {
+        if *self.world.resource::<Structure>() == Structure::Known {
+            return Ok(());
+        }
+        let dt = self.clock().dt;
+        if !(dt > 0.0 && dt.is_finite()) {
+            return Err(StepError::TimeStep(dt));
+        }
+        prepare_bodies::<D>(&mut self.world)?;
+        prepare_colliders::<D>(&mut self.world);
+        renumber_pairs::<D>(&mut self.world);
+        self.world.resource_mut::<PreviousEnds<D>>().forget();
+        for need in needs::<D>(&mut self.world).difference(&self.known) {
+            add_systems::<D>(*need, &mut self.step, &mut self.begin);
+        }
+        self.known.append(&mut needs::<D>(&mut self.world));
+        self.world.insert_resource(Structure::Known);
+        Ok(())
+    }
+
+    /// The body of a name.
+    ///
+    /// # Errors
+    ///
+    /// When no body has it.
+    pub fn body(&self, name: &str) -> Result<BodyView<'_, D>, UnknownBody> {
+        let entity = self.entity(name)?;
+        Ok(BodyView::new(self.world.entity(entity)))
+    }
+
+    /// The entity of the body of a name.
+    ///
+    /// # Errors
+    ///
+    /// When no body has it.
+    pub fn entity(&self, name: &str) -> Result<Entity, UnknownBody> {
+        let unknown = || UnknownBody(name.to_owned());
+        if *self.world.resource::<Structure>() == Structure::Known {
+            let table = self.world.resource::<BodyTable>();
+            return table.index_of(name).map(|index| table.entry(index).entity).ok_or_else(unknown);
+        }
+        let mut names = self.world.try_query::<(Entity, &Name)>().ok_or_else(unknown)?;
+        names.iter(&self.world).find(|(_, known)| known.as_str() == name).map(|(entity, _)| entity).ok_or_else(unknown)
+    }
+
+    /// The simulated time [s].
+    pub fn time(&self) -> f64 {
+        self.clock().time()
+    }
+
+    /// Step count and Δt.
+    pub fn clock(&self) -> &Clock {
+        self.world.resource::<Clock>()
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &Settings<D> {
+        self.world.resource::<Settings<D>>()
+    }
+
+    /// Surfaces by pair of materials, to be set before the first step.
+    pub fn materials_mut(&mut self) -> Mut<'_, Materials> {
+        self.world.resource_mut::<Materials>()
+    }
+
+    /// What a user should know about the run so far.
+    pub fn notices(&self) -> &Notices {
+        self.world.resource::<Notices>()
+    }
+
+    /// The world.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The world, to be edited between steps.
+    pub fn world_mut(&mut self) -> &mut World {
+        &mut self.world
+    }
+
+    fn next_body_id(&mut self) -> BodyId {
+        let mut taken = self.world.query::<&BodyId>();
+        BodyId(taken.iter(&self.world).map(|id| id.0 + 1).max().unwrap_or(0))
+    }
+
+    fn forget_last_step(&mut self) {
+        *self.world.resource_mut::<ContactReport>() = ContactReport::default();
+        *self.world.resource_mut::<Fault>() = Fault::default();
+        if self.known.contains(&Need::Detection) {
+            self.world.resource_mut::<Messages<Touch>>().update();
+            let mut memories = self.world.query::<&mut ContactMemory<D>>();
+            for mut memory in memories.iter_mut(&mut self.world) {
+                for point in memory.bypass_change_detection().0.as_mut() {
+                    let point: &mut PointMemory<D::Vector> = point;
+                    point.given = D::Vector::ZERO;
+                }
+            }
+        }
+    }
+
+    /// Whether the state of a body was changed from outside since the last step.
+    fn was_edited(&mut self) -> bool {
+        if !self.known.contains(&Need::Detection) {
+            return false;
+        }
+        let mut edited = self.world.query_filtered::<(), Edited<D>>();
+        edited.iter(&self.world).next().is_some()
+    }
+
+    fn check_fault(&self) -> Result<(), StepError> {
+        let Some(fault) = self.world.resource::<Fault>().get() else { return Ok(()) };
+        Err(StepError::NotFinite {
+            body: self.world.resource::<BodyTable>().entry(fault.body).name.clone(),
+            quantity: fault.quantity.as_str(),
+            phase: fault.phase,
+            step: self.clock().step + 1,
+        })
+    }
+}
+
+type Edited<D> = Or<(
+    Changed<Position<<D as Dim>::Vector>>,
+    Changed<Orientation<<D as Dim>::Rotation>>,
+    Changed<LinearVelocity<<D as Dim>::Vector>>,
+    Changed<AngularVelocity<<D as Dim>::Angular>>,
+)>;
