@@ -348,12 +348,16 @@ fn body_value(
         BodyQuantity::Speed => state.velocity.length(),
         BodyQuantity::Kinetic if record.kind != BodyKind::Dynamic => 0.0,
         BodyQuantity::Kinetic => {
-            let turning = 0.5 * record.inertia * state.angular_velocity * state.angular_velocity;
-            // A locked axis has infinite inertia and never turns.
-            0.5 * record.mass * state.velocity.length_squared() + if turning.is_nan() { 0.0 } else { turning }
+            let moving = half_product(record.mass, state.velocity.length_squared());
+            moving + half_product(record.inertia, state.angular_velocity * state.angular_velocity)
         }
         BodyQuantity::NormalForce => contacts().map(|contact| contact.normal_impulse / dt).sum(),
         BodyQuantity::FrictionForce => contacts().map(|contact| contact.tangent_impulse / dt).sum(),
         BodyQuantity::Contacts => contacts().count() as f64,
     }
+}
+
+/// Returns ½ m v²; an infinite mass that does not move has no energy.
+fn half_product(mass: f64, squared_speed: f64) -> f64 {
+    if squared_speed == 0.0 { 0.0 } else { 0.5 * mass * squared_speed }
 }

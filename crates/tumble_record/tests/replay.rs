@@ -146,4 +146,5 @@ fn short_recordings_are_kept_whole() {
 fn replay_to_look_at() {
     let Some(folder) = std::env::var_os("TUMBLE_PICTURES").map(PathBuf::from) else { return };
     std::fs::write(folder.join("replay.html"), html(&common::falling_rods(4.0, 10))).expect("it can be written");
+    std::fs::write(folder.join("crowd.html"), html(&crowd(300, 2000, 1300))).expect("it can be written");
 }

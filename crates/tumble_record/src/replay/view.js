@@ -9,40 +9,36 @@ class View {
     this.fitted = true;
     this.force = typicalForce();
     this.bodyColors = recording.bodies.map((_, index) => PALETTE[index % PALETTE.length]);
+    this.outlines = recording.bodies.map((body) => body.shapes.flatMap(({ geometry }) => outline(geometry)));
     this.reach = recording.bodies.map(bodyReach);
   }
 
   /** Shows the start and where nearly all bodies go; one that flies away does not shrink the rest to dots. */
   fit() {
-    const xs = [], ys = [];
     const { bodies, times } = recording;
-    const stride = Math.max(1, Math.floor((bodies.length * times.length) / 200000));
-    const poses = [];
-    const visit = (time, lists) => posesAt(time, poses).forEach((pose, body) => {
-      if (Number.isFinite(pose.x) && this.reach[body] < Infinity && Number.isFinite(pose.y)) {
-        lists.push([pose.x - this.reach[body], pose.x + this.reach[body], pose.y - this.reach[body], pose.y + this.reach[body]]);
+    const xs = [], ys = [], poses = [];
+    const collect = (time, xs, ys) => posesAt(time, poses).forEach((pose, body) => {
+      if (!Number.isFinite(pose.x) || !Number.isFinite(pose.y)) return;
+      for (const [x, y, radius] of this.outlines[body]) {
+        const wx = pose.x + pose.cos * x - pose.sin * y, wy = pose.y + pose.sin * x + pose.cos * y;
+        xs.push(wx - radius, wx + radius);
+        ys.push(wy - radius, wy + radius);
       }
     });
-    const boxes = [];
-    for (let sample = 0; sample < times.length; sample += stride) visit(times[sample], boxes);
-    for (const [left, right, low, high] of boxes) { xs.push(left, right); ys.push(low, high); }
-    xs.sort((a, b) => a - b);
-    ys.sort((a, b) => a - b);
-    const cut = (list, share) => list[Math.round(share * (list.length - 1))];
-    let box = { left: cut(xs, .005) ?? -1, right: cut(xs, .995) ?? 1, low: cut(ys, .005) ?? -1, high: cut(ys, .995) ?? 1 };
-    const start = [];
-    visit(firstTime, start);
-    for (const [left, right, low, high] of start) {
-      box = { left: Math.min(box.left, left), right: Math.max(box.right, right), low: Math.min(box.low, low), high: Math.max(box.high, high) };
-    }
-    const width = Math.max(box.right - box.left, 1e-9), height = Math.max(box.high - box.low, 1e-9);
+    const stride = Math.max(1, Math.floor((bodies.length * times.length) / 50000));
+    for (let sample = 0; sample < times.length; sample += stride) collect(times[sample], xs, ys);
+    const startXs = [], startYs = [];
+    collect(firstTime, startXs, startYs);
+    const [left, right] = nearlyAll(xs, startXs), [low, high] = nearlyAll(ys, startYs);
+
+    const width = Math.max(right - left, 1e-9), height = Math.max(high - low, 1e-9);
     // Room for the tool bar above and for ground and scales below.
     const room = { x: Math.max(this.canvas.clientWidth - 100, 50), y: Math.max(this.canvas.clientHeight - 150, 50) };
     this.camera.scale = Math.min(room.x / width, room.y / height);
-    this.camera.x = (box.left + box.right) / 2;
     // Spare height goes above rather than below, where there is mostly ground.
     const spare = Math.max(room.y - height * this.camera.scale, 0);
-    this.camera.y = (box.low + box.high) / 2 + (0.2 * spare - 12) / this.camera.scale;
+    this.camera.x = (left + right) / 2;
+    this.camera.y = (low + high) / 2 + (0.25 * spare - 12) / this.camera.scale;
     this.fitted = true;
   }
 
@@ -127,7 +123,7 @@ class View {
       context.lineWidth = 2;
       if (sensor) context.setLineDash([5, 5]);
       const fill = () => { context.globalAlpha = sensor ? .06 : .22; context.fill(); context.globalAlpha = 1; context.stroke(); };
-      if (geometry.Rod) this.drawRod(geometry.Rod, place, ink, fill);
+      if (geometry.Rod) this.drawRod(geometry.Rod, place, far, fill);
       if (geometry.Disc) this.drawDisc(geometry.Disc, place, fill);
       if (geometry.Polygon) {
         context.beginPath();
@@ -144,13 +140,14 @@ class View {
     }
   }
 
-  drawRod({ from, to, radius }, place, ink, fill) {
+  drawRod({ from, to, radius }, place, far, fill) {
     const { context } = this;
     const [start, end] = [place(from), place(to)];
     const wide = radius * this.camera.scale;
     context.beginPath();
     if (wide < 2) {
-      context.lineWidth = 3.2;
+      // A thin rod has no width of its own: a bold line, finer on small bodies.
+      context.lineWidth = Math.min(Math.max(.12 * far, 1), 3.2);
       context.moveTo(...start); context.lineTo(...end);
       context.stroke();
       return;
@@ -323,13 +320,25 @@ class View {
   }
 }
 
+/** Least and greatest of a list without its outermost half percents, and of a second list with all. */
+function nearlyAll(values, always) {
+  values.sort((a, b) => a - b);
+  let low = values[Math.round(.005 * (values.length - 1))] ?? -1, high = values[Math.round(.995 * (values.length - 1))] ?? 1;
+  for (const value of always) { low = Math.min(low, value); high = Math.max(high, value); }
+  return [low, high];
+}
+
+/** Circles [x, y, radius] in the body frame whose hull is the shape; none for a half-plane, which has no end. */
+function outline(geometry) {
+  if (geometry.Rod) return [geometry.Rod.from, geometry.Rod.to].map((end) => [...end, geometry.Rod.radius]);
+  if (geometry.Disc) return [[...geometry.Disc.centre, geometry.Disc.radius]];
+  return (geometry.Polygon?.points ?? []).map((point) => [...point, 0]);
+}
+
 /** Largest distance of a body's surface from its centre of mass; infinite for a half-plane. */
 function bodyReach(body) {
-  return body.shapes.reduce((reach, { geometry }) => Math.max(reach,
-    geometry.Rod ? Math.max(Math.hypot(...geometry.Rod.from), Math.hypot(...geometry.Rod.to)) + geometry.Rod.radius
-    : geometry.Disc ? Math.hypot(...geometry.Disc.centre) + geometry.Disc.radius
-    : geometry.Polygon ? Math.max(...geometry.Polygon.points.map((point) => Math.hypot(...point)))
-    : Infinity), 0);
+  if (body.shapes.some(({ geometry }) => geometry.HalfPlane)) return Infinity;
+  return Math.max(0, ...body.shapes.flatMap(({ geometry }) => outline(geometry)).map(([x, y, radius]) => Math.hypot(x, y) + radius));
 }
 
 /** Distance from a point of the body frame to a shape, at most 0 inside. */
