@@ -3,6 +3,7 @@
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Inertia, Linear, Rotation};
 
+use crate::Clock;
 use crate::body::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyIndex, BodyInertia, Force, InDim, InverseInertia,
     InverseMass, LinearVelocity, Orientation, Position, PreviousVelocity, Torque,
@@ -10,7 +11,6 @@ use crate::body::{
 use crate::contact::PositionCorrections;
 use crate::fault::{Fault, Quantity};
 use crate::schedule::StepSystems;
-use crate::Clock;
 
 type VectorOf<D> = <D as Dim>::Vector;
 type AngularOf<D> = <D as Dim>::Angular;
@@ -40,7 +40,12 @@ pub fn compute_accelerations<D: Dim<Vector: InDim>>(
     for (index, force, torque, inverse_mass, inverse_inertia, orientation, mut linear, mut angular) in &mut bodies {
         let a = force.0.scale_by(inverse_mass.0);
         let alpha = inverse_inertia.0.in_world(&orientation.0).apply(torque.0);
-        fault.check(a.is_finite() && alpha.is_finite(), index.0, Quantity::Acceleration, StepSystems::ComputeAccelerations);
+        fault.check(
+            a.is_finite() && alpha.is_finite(),
+            index.0,
+            Quantity::Acceleration,
+            StepSystems::ComputeAccelerations,
+        );
         linear.bypass_change_detection().0 = a;
         angular.bypass_change_detection().0 = alpha;
     }
@@ -99,7 +104,8 @@ pub fn update_positions<D: Dim<Vector: InDim>>(
     mut fault: ResMut<Fault>,
 ) {
     let corrections = corrections.as_deref();
-    for (index, mut position, mut orientation, velocity, mut angular_velocity, inertia, inverse, previous) in &mut bodies
+    for (index, mut position, mut orientation, velocity, mut angular_velocity, inertia, inverse, previous) in
+        &mut bodies
     {
         let (mut v, mut w) = (velocity.0, angular_velocity.0);
         if let Some(previous) = previous {

@@ -20,8 +20,8 @@ pub mod structure;
 
 pub use body::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyEntry, BodyId, BodyIndex, BodyInertia, BodyKind, BodyTable,
-    BodyView, Force, InDim, InverseInertia, InverseMass, Keyframe, Keyframes, LinearVelocity, Lock, LockedAxes, Mass,
-    MassOverride, Orientation, Pinned, Position, PreviousVelocity, Torque,
+    BodyView, CentreOverride, Force, InDim, InertiaOverride, InverseInertia, InverseMass, Keyframe, Keyframes,
+    LinearVelocity, Lock, LockedAxes, Mass, MassOverride, Orientation, Pinned, Position, PreviousVelocity, Torque,
 };
 pub use clock::Clock;
 pub use contact::{

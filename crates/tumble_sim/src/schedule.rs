@@ -116,14 +116,7 @@ pub(crate) fn step_schedule<D: Geometry>() -> Schedule {
             .in_set(AccumulateForces),
     );
     schedule.configure_sets(
-        (
-            Place::Gravity,
-            Place::ScaledGravity,
-            Place::LinearDrag,
-            Place::QuadraticDrag,
-            Place::Springs,
-            Place::Applied,
-        )
+        (Place::Gravity, Place::ScaledGravity, Place::LinearDrag, Place::QuadraticDrag, Place::Springs, Place::Applied)
             .chain()
             .in_set(ForceSystems::BuiltIn),
     );

@@ -38,10 +38,7 @@ impl<V: Linear, W: Linear> Keyframes<V, W> {
         let from = &self.0[after - 1];
         let Some(to) = self.0.get(after) else { return Some((from.position, from.angle)) };
         let part = (time - from.time) / (to.time - from.time);
-        Some((
-            from.position + (to.position - from.position) * part,
-            from.angle + (to.angle - from.angle) * part,
-        ))
+        Some((from.position + (to.position - from.position) * part, from.angle + (to.angle - from.angle) * part))
     }
 }
 

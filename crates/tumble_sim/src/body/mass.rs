@@ -22,23 +22,20 @@ pub struct InverseMass<V: Vector>(pub V);
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct InverseInertia<I: Send + Sync + 'static>(pub I);
 
-/// Mass properties given outright; each that is present overrides what the parts give.
+/// Mass given outright instead of by the parts, whose inertia is rescaled with it [kg].
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[component(on_insert = mark_changed)]
-pub struct MassOverride<D: Dim> {
-    /// Mass [kg].
-    pub mass: Option<f64>,
-    /// Centre of mass in the frame of the parts [m].
-    pub centre: Option<D::Vector>,
-    /// Inertia about the centre of mass, in body axes [kg·m²].
-    pub inertia: Option<D::Inertia>,
-}
+#[component(on_insert = mark_changed, on_remove = mark_changed)]
+pub struct MassOverride(pub f64);
 
-impl<D: Dim> Default for MassOverride<D> {
-    fn default() -> Self {
-        Self { mass: None, centre: None, inertia: None }
-    }
-}
+/// Centre of mass given outright instead of by the parts, in the frame of the parts [m].
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[component(on_insert = mark_changed, on_remove = mark_changed)]
+pub struct CentreOverride<V: Vector>(pub V);
+
+/// Inertia given outright instead of by the parts, about the centre of mass, in body axes [kg·m²].
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[component(on_insert = mark_changed, on_remove = mark_changed)]
+pub struct InertiaOverride<I: Send + Sync + 'static>(pub I);
 
 /// A dynamic body that nothing moves or turns while this is present.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -16,7 +16,10 @@ mod table;
 mod view;
 
 pub use kinematic::{Keyframe, Keyframes, follow_keyframes};
-pub use mass::{BodyInertia, InverseInertia, InverseMass, Lock, LockedAxes, Mass, MassOverride, Pinned};
+pub use mass::{
+    BodyInertia, CentreOverride, InertiaOverride, InverseInertia, InverseMass, Lock, LockedAxes, Mass, MassOverride,
+    Pinned,
+};
 pub use state::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyId, BodyKind, Force, InDim, LinearVelocity, Orientation,
     Position, PreviousVelocity, Torque,

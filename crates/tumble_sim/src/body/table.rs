@@ -7,7 +7,10 @@ use bevy_ecs::prelude::*;
 use tumble_math::{Inertia, Linear, Rotation};
 use tumble_shape::MassProperties;
 
-use super::mass::{BodyInertia, InverseInertia, InverseMass, LockedAxes, Mass, MassOverride, Pinned, inverse_mass};
+use super::mass::{
+    BodyInertia, CentreOverride, InertiaOverride, InverseInertia, InverseMass, LockedAxes, Mass, MassOverride, Pinned,
+    inverse_mass,
+};
 use super::{AngularVelocity, BodyId, BodyKind, LinearVelocity, Orientation, Position};
 use crate::error::BodyError;
 use crate::geometry::Geometry;
@@ -104,10 +107,21 @@ fn build_table<D: Geometry>(world: &mut World) -> Result<BodyTable, BodyError> {
     Ok(BodyTable { entries, by_name })
 }
 
+/// Mass properties given outright.
+struct Given<D: Geometry> {
+    mass: Option<f64>,
+    centre: Option<D::Vector>,
+    inertia: Option<D::Inertia>,
+}
+
 /// Mass from the parts (R4, R5) or as given, and the move from the parts' frame to the centre of mass.
 fn prepare_mass<D: Geometry>(world: &mut World, entry: &BodyEntry) -> Result<(), BodyError> {
     let body = world.entity(entry.entity);
-    let given = body.get::<MassOverride<D>>().copied().unwrap_or_default();
+    let given = Given::<D> {
+        mass: body.get::<MassOverride>().map(|mass| mass.0),
+        centre: body.get::<CentreOverride<D::Vector>>().map(|centre| centre.0),
+        inertia: body.get::<InertiaOverride<D::Inertia>>().map(|inertia| inertia.0),
+    };
     let pinned = body.get::<Pinned>().copied();
     let locked = body.get::<LockedAxes<D::Vector>>().copied();
     check_given::<D>(&given, &entry.name)?;
@@ -151,7 +165,7 @@ fn prepare_mass<D: Geometry>(world: &mut World, entry: &BodyEntry) -> Result<(),
 fn dynamic_mass<D: Geometry>(
     world: &World,
     entry: &BodyEntry,
-    given: &MassOverride<D>,
+    given: &Given<D>,
 ) -> Result<MassProperties<D>, BodyError> {
     let mut of_parts = Vec::new();
     let parts = world.get::<Parts>(entry.entity).into_iter().flat_map(|parts| parts.iter());
@@ -175,7 +189,7 @@ fn dynamic_mass<D: Geometry>(
     Ok(MassProperties { mass, centre, inertia })
 }
 
-fn check_given<D: Geometry>(given: &MassOverride<D>, name: &str) -> Result<(), BodyError> {
+fn check_given<D: Geometry>(given: &Given<D>, name: &str) -> Result<(), BodyError> {
     if let Some(mass) = given.mass.filter(|mass| !(*mass > 0.0 && mass.is_finite())) {
         return Err(BodyError::NotPositive { body: name.to_owned(), quantity: "mass", value: mass });
     }

@@ -83,7 +83,12 @@ impl IgnoredPairs {
 }
 
 /// Whether two parts may touch at all.
-pub(super) fn may_touch<D: Geometry>(a: &Collider<D>, b: &Collider<D>, table: &BodyTable, ignored: &IgnoredPairs) -> bool {
+pub(super) fn may_touch<D: Geometry>(
+    a: &Collider<D>,
+    b: &Collider<D>,
+    table: &BodyTable,
+    ignored: &IgnoredPairs,
+) -> bool {
     let (body_a, body_b) = (table.entry(a.body), table.entry(b.body));
     let one_moves = body_a.kind == BodyKind::Dynamic || body_b.kind == BodyKind::Dynamic;
     a.body != b.body && one_moves && a.groups.admit(b.groups) && !ignored.contains(body_a.id, body_b.id)

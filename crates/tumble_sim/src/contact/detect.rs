@@ -189,7 +189,9 @@ pub fn sync_pairs<D: Geometry>(world: &mut World) {
     let table = world.resource::<BodyTable>();
     let colliders = world.resource::<Colliders<D>>();
     let materials = world.resource::<Materials>();
-    let pair_of = |&(a, b): &(u32, u32)| new_pair(&colliders.as_slice()[a as usize], &colliders.as_slice()[b as usize], [a, b], table, materials);
+    let pair_of = |&(a, b): &(u32, u32)| {
+        new_pair(&colliders.as_slice()[a as usize], &colliders.as_slice()[b as usize], [a, b], table, materials)
+    };
 
     let added: Vec<ContactPair> = changes.added.iter().map(pair_of).collect();
     let removed: Vec<PairKey> = if renewed {
@@ -266,9 +268,9 @@ fn end_pair(world: &mut World, entity: Entity, ended: &mut Vec<Touch>) {
 fn spawn_pairs<D: Geometry>(world: &mut World, added: Vec<ContactPair>, pairs: &mut HashMap<PairKey, Entity>) {
     let fresh: Vec<ContactPair> = added.into_iter().filter(|pair| !pairs.contains_key(&pair.key)).collect();
     let keys: Vec<PairKey> = fresh.iter().map(|pair| pair.key).collect();
-    let bundles = fresh.into_iter().map(|pair| {
-        (pair, ContactManifold::<D>(D::Manifold::default()), ContactMemory::<D>(D::PerPoint::default()))
-    });
+    let bundles = fresh
+        .into_iter()
+        .map(|pair| (pair, ContactManifold::<D>(D::Manifold::default()), ContactMemory::<D>(D::PerPoint::default())));
     let entities: Vec<Entity> = world.spawn_batch(bundles).collect();
     pairs.extend(keys.into_iter().zip(entities));
 }
@@ -314,7 +316,8 @@ pub fn find_contacts<D: Geometry>(
             flush_tolerance: settings.slop() + touch_tolerance,
             previous: &manifold.0,
         };
-        let found = D::collide(Posed { shape: shape_a, pose: &a.pose }, Posed { shape: shape_b, pose: &b.pose }, &query);
+        let found =
+            D::collide(Posed { shape: shape_a, pose: &a.pose }, Posed { shape: shape_b, pose: &b.pose }, &query);
         remember::<D>(&manifold.0, &found, &mut memory.bypass_change_detection().0);
         let touching = D::points(&found).iter().any(|point| point.separation <= touch_tolerance);
         if touching != pair.touching {

@@ -124,7 +124,8 @@ pub fn resolve_impulses<D: Geometry>(
         return;
     }
 
-    let reading = Reading { dt: clock.dt, integrator: settings.integrator, touch_tolerance: settings.touch_tolerance() };
+    let reading =
+        Reading { dt: clock.dt, integrator: settings.integrator, touch_tolerance: settings.touch_tolerance() };
     let mut approaches: Vec<Approach> = problem
         .rows
         .iter()
@@ -137,8 +138,7 @@ pub fn resolve_impulses<D: Geometry>(
             _ => Approach::default(),
         })
         .collect();
-    let solved =
-        resolve_one_by_one(&mut problem.bodies, &problem.rows, &mut approaches, &mut problem.scratch, &impact);
+    let solved = resolve_one_by_one(&mut problem.bodies, &problem.rows, &mut approaches, &mut problem.scratch, &impact);
     report.add(solved);
     problem.scatter_bodies(&mut bodies, &mut fault, StepSystems::ResolveImpulses);
 

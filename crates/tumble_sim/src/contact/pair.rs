@@ -64,12 +64,6 @@ pub struct PointMemory<V> {
 
 impl<V: Linear> Default for PointMemory<V> {
     fn default() -> Self {
-        Self {
-            feature: FeatureId(0),
-            impulse: V::ZERO,
-            slip: Slip::default(),
-            given: V::ZERO,
-            separation_before: None,
-        }
+        Self { feature: FeatureId(0), impulse: V::ZERO, slip: Slip::default(), given: V::ZERO, separation_before: None }
     }
 }

@@ -148,14 +148,8 @@ fn rod_on_half_space<D: Geometry>(pair: &ContactPair, list: &[super::Collider<D>
     }
 }
 
-type Forces<'w, 's, D> = Query<
-    'w,
-    's,
-    (
-        &'static mut Force<<D as Dim>::Vector>,
-        &'static mut Torque<<D as Dim>::Angular>,
-    ),
->;
+type Forces<'w, 's, D> =
+    Query<'w, 's, (&'static mut Force<<D as Dim>::Vector>, &'static mut Torque<<D as Dim>::Angular>)>;
 
 /// Adds a force of the contact frame to b and its opposite to a.
 fn push<D: Geometry>(row: &ContactRow<D>, force: D::Vector, table: &BodyTable, forces: &mut Forces<D>) {
@@ -165,13 +159,7 @@ fn push<D: Geometry>(row: &ContactRow<D>, force: D::Vector, table: &BodyTable, f
 }
 
 /// Adds a world force at an arm of a body.
-fn push_at<D: Geometry>(
-    arm: D::Vector,
-    body: u32,
-    force: D::Vector,
-    table: &BodyTable,
-    forces: &mut Forces<D>,
-) {
+fn push_at<D: Geometry>(arm: D::Vector, body: u32, force: D::Vector, table: &BodyTable, forces: &mut Forces<D>) {
     if let Ok((mut sum, mut torque)) = forces.get_mut(table.entry(body).entity) {
         sum.bypass_change_detection().0 += force;
         torque.bypass_change_detection().0 += D::torque(arm, force);

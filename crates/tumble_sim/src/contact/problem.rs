@@ -5,7 +5,9 @@ use tumble_math::{Dim, Inertia, Linear};
 use tumble_solver::{ContactRow, Ending, Report, SolverBody};
 
 use super::{ContactManifold, ContactMemory, ContactPair, Detection, PairKey};
-use crate::body::{AngularVelocity, BodyIndex, InverseInertia, InverseMass, LinearVelocity, Orientation, PreviousVelocity};
+use crate::body::{
+    AngularVelocity, BodyIndex, InverseInertia, InverseMass, LinearVelocity, Orientation, PreviousVelocity,
+};
 use crate::fault::{Fault, Quantity};
 use crate::geometry::Geometry;
 use crate::part::Response;
