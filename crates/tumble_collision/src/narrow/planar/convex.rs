@@ -22,6 +22,9 @@ const REACH_OF_MEMORY: f64 = 0.25;
 /// Without it, two sides lying flush would take turns from step to step.
 const REFERENCE_PREFERENCE: f64 = 0.1;
 
+/// How much of the flush tolerance still counts, so that an overlap equal to it is flush whatever rounding does [1].
+const FLUSH_SLACK: f64 = 1.0 + 1e-6;
+
 /// Rounding of heights above a side, relative to the size of the pair [1].
 const ROUND_OFF: f64 = 1e-14;
 
@@ -33,7 +36,7 @@ pub(super) fn collide(a: &Core, b: &Core, origin: DVec2, query: &PlanarQuery) ->
     }
     let fallback = previous.map_or(DVec2::Y, |previous| previous.normal);
     let preference = REFERENCE_PREFERENCE * query.flush_tolerance;
-    let candidates = Candidates::new(a, b, query.flush_tolerance, preference);
+    let candidates = Candidates::new(a, b, query.flush_tolerance * FLUSH_SLACK, preference);
     let Some(best) = candidates.best else {
         return corner::closest(a, b, fallback, origin, query.margin);
     };
@@ -88,7 +91,10 @@ impl Candidates {
                     least = axis.separation;
                     candidates.best = Some(axis);
                 }
-                if axis.separation.abs() <= flush_tolerance && flush_count < candidates.flush.len() {
+                if flush_tolerance > 0.0
+                    && axis.separation.abs() <= flush_tolerance
+                    && flush_count < candidates.flush.len()
+                {
                     candidates.flush[flush_count] = Some(axis);
                     flush_count += 1;
                 }
