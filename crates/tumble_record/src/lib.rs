@@ -1,7 +1,7 @@
 //! What happened: plain data about a finished run, and everything that is made of it.
 //!
 //! A [`Recording`] holds the bodies with their shapes, samples of their states and contacts, one audit row per step and
-//! the messages of touch. It knows nothing of the world that filled it. From it come
+//! the messages of touch. [`Record`] fills it while a simulation runs. From it come
 //!
 //! - tables: [`tables`] writes `trajectory.csv`, `contacts.csv`, `audit.csv` and `touches.csv`,
 //! - numbers: [`Summary`] is `summary.json`, [`Fingerprint`] condenses a state into 32 hex digits,
@@ -17,6 +17,7 @@ mod fingerprint;
 mod names;
 mod output;
 pub mod plot;
+mod recorder;
 mod recording;
 pub mod replay;
 mod summary;
@@ -29,6 +30,7 @@ pub use channel::{
 pub use files::{Completeness, FileAction, FileError, OutputFolder, PreparedFiles, write_file};
 pub use fingerprint::{Fingerprint, FingerprintHasher, ParseFingerprintError};
 pub use output::{OutputError, write_run};
+pub use recorder::Record;
 pub use recording::{
     AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, Touch,
     TouchPhase,

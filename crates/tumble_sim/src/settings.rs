@@ -24,6 +24,19 @@ pub enum ContactModel {
     Penalty,
 }
 
+impl ContactModel {
+    /// All models.
+    pub const ALL: [Self; 2] = [Self::Penalty, Self::Impulse];
+
+    /// Its word on the command line and in outputs.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Penalty => "penalty",
+            Self::Impulse => "impulse",
+        }
+    }
+}
+
 /// Settings of the penalty model; see [`tumble_solver::penalty`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PenaltySettings {

@@ -1,0 +1,363 @@
+//! Fills a [`Recording`] while a simulation runs.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use bevy_ecs::change_detection::Tick;
+use bevy_ecs::message::MessageCursor;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use tumble_math::{Planar, PlanarRotation, Pose};
+use tumble_shape::PlanarShape;
+use tumble_sim::contact::{Colliders, ContactManifold, ContactMemory, ContactPair};
+use tumble_sim::force::{gravity_potential, spring_potential};
+use tumble_sim::{
+    Anchor, AngularVelocity, BodyIndex, BodyInertia, BodyTable, Clock, ContactReport, GravityScale, LinearVelocity,
+    Mass, Orientation, Position, Response, Settings, Simulation, Spring, StepError, Touch as TouchMessage,
+};
+
+use crate::recording::{
+    AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, Touch,
+    TouchPhase,
+};
+
+/// Recording of a simulation.
+pub trait Record {
+    /// Starts to record: a sample now, after every `every`-th step, and of the last step; audits and touches of every step.
+    ///
+    /// # Errors
+    ///
+    /// When a body cannot be simulated.
+    fn record(&mut self, every: u32) -> Result<(), StepError>;
+
+    /// What was recorded so far, the present included; `None` unless [`record`](Self::record) was called.
+    fn recording(&mut self) -> Option<&Recording>;
+
+    /// Takes the recording out, the present included, and ends it.
+    fn take_recording(&mut self) -> Option<Recording>;
+}
+
+impl Record for Simulation<Planar> {
+    fn record(&mut self, every: u32) -> Result<(), StepError> {
+        self.prepare()?;
+        let settings = self.settings();
+        let recording = Recording {
+            contact: settings.contact.word().to_owned(),
+            dt: settings.dt,
+            length_scale: settings.length_scale,
+            ..Recording::default()
+        };
+        let first = self.world().get_resource::<Recorder>().is_none();
+        let mut recorder = Recorder::new(recording, every.max(1), self.world_mut());
+        recorder.audit(self.world());
+        recorder.sample(self.world());
+        self.world_mut().insert_resource(recorder);
+        if first {
+            self.after_step(after_step);
+        }
+        Ok(())
+    }
+
+    fn recording(&mut self) -> Option<&Recording> {
+        with_recorder(self.world_mut(), Recorder::sample_present);
+        self.world().get_resource::<Recorder>().map(|recorder| &recorder.recording)
+    }
+
+    fn take_recording(&mut self) -> Option<Recording> {
+        with_recorder(self.world_mut(), Recorder::sample_present);
+        self.world_mut().get_resource_mut::<Recorder>().map(|mut recorder| {
+            recorder.state = State::Ended;
+            std::mem::take(&mut recorder.recording)
+        })
+    }
+}
+
+fn after_step(world: &mut World) {
+    with_recorder(world, |recorder, world| {
+        recorder.follow_structure(world);
+        recorder.audit(world);
+        recorder.touches(world);
+        recorder.drop_provisional();
+        if world.resource::<Clock>().step.is_multiple_of(u64::from(recorder.every)) {
+            recorder.sample(world);
+        }
+    });
+}
+
+/// Calls a function with the recorder and the world it looks at.
+fn with_recorder(world: &mut World, function: impl FnOnce(&mut Recorder, &World)) {
+    // The recorder is lent out as a whole: its place in the world stays, empty.
+    let Some(mut place) = world.get_resource_mut::<Recorder>() else { return };
+    if place.state == State::Ended {
+        return;
+    }
+    let mut recorder = std::mem::replace(&mut *place, Recorder::lent());
+    recorder.queries.update(world);
+    function(&mut recorder, world);
+    *world.resource_mut::<Recorder>() = recorder;
+}
+
+/// Whether the recorder is at work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Recording,
+    Ended,
+}
+
+/// Records into a [`Recording`].
+#[derive(Resource)]
+struct Recorder {
+    recording: Recording,
+    every: u32,
+    state: State,
+    /// Index in the recording of each body id.
+    known: HashMap<u64, usize>,
+    /// Index in the recording of each rank of the body table.
+    of_rank: Vec<usize>,
+    table_tick: Option<Tick>,
+    /// Whether the last sample is only there because someone looked.
+    provisional: bool,
+    cursor: MessageCursor<TouchMessage>,
+    queries: Queries,
+}
+
+type BodyComponents = (
+    &'static BodyIndex,
+    &'static Position<DVec2>,
+    &'static Orientation<PlanarRotation>,
+    &'static LinearVelocity<DVec2>,
+    &'static AngularVelocity<f64>,
+    &'static Mass,
+    &'static BodyInertia<f64>,
+    Option<&'static GravityScale>,
+);
+type PairComponents = (&'static ContactPair, &'static ContactManifold<Planar>, &'static ContactMemory<Planar>);
+
+/// Queries over the world, built once.
+struct Queries(Option<(QueryState<BodyComponents>, QueryState<PairComponents>, QueryState<&'static Spring<DVec2>>)>);
+
+impl Queries {
+    fn update(&mut self, world: &mut World) {
+        let queries = self.0.get_or_insert_with(|| (world.query(), world.query(), world.query()));
+        queries.0.update_archetypes(world);
+        queries.1.update_archetypes(world);
+        queries.2.update_archetypes(world);
+    }
+
+    fn get(&self) -> (&QueryState<BodyComponents>, &QueryState<PairComponents>, &QueryState<&'static Spring<DVec2>>) {
+        let (bodies, pairs, springs) = self.0.as_ref().expect("queries are built before they are used");
+        (bodies, pairs, springs)
+    }
+}
+
+impl Recorder {
+    fn new(recording: Recording, every: u32, world: &mut World) -> Self {
+        let mut recorder = Self { recording, every, state: State::Recording, ..Self::lent() };
+        recorder.queries.update(world);
+        recorder.follow_structure(world);
+        recorder
+    }
+
+    /// What stands in the world while the recorder is at work.
+    fn lent() -> Self {
+        Self {
+            recording: Recording::default(),
+            every: 1,
+            state: State::Ended,
+            known: HashMap::new(),
+            of_rank: Vec::new(),
+            table_tick: None,
+            provisional: false,
+            cursor: MessageCursor::default(),
+            queries: Queries(None),
+        }
+    }
+
+    /// Takes up bodies that are new since the last step.
+    fn follow_structure(&mut self, world: &World) {
+        let Some(table) = world.get_resource_ref::<BodyTable>() else { return };
+        if self.table_tick == Some(table.last_changed()) {
+            return;
+        }
+        self.table_tick = Some(table.last_changed());
+        let colliders = world.resource::<Colliders<Planar>>();
+        self.of_rank.clear();
+        for (rank, entry) in table.entries().iter().enumerate() {
+            let next = self.recording.bodies.len();
+            let index = *self.known.entry(entry.id.0).or_insert(next);
+            self.of_rank.push(index);
+            if index == next {
+                let kind = match entry.kind {
+                    tumble_sim::BodyKind::Dynamic => BodyKind::Dynamic,
+                    tumble_sim::BodyKind::Kinematic => BodyKind::Kinematic,
+                    tumble_sim::BodyKind::Static => BodyKind::Static,
+                };
+                let shapes = colliders.of_body(rank as u32);
+                let of = |get: fn(&EntityRef) -> f64| {
+                    if kind == BodyKind::Dynamic { get(&world.entity(entry.entity)) } else { f64::INFINITY }
+                };
+                self.recording.bodies.push(BodyRecord {
+                    id: entry.id.0,
+                    name: entry.name.clone(),
+                    kind,
+                    mass: of(|entity| entity.get::<Mass>().map_or(0.0, |mass| mass.0)),
+                    inertia: of(|entity| entity.get::<BodyInertia<f64>>().map_or(0.0, |inertia| inertia.0)),
+                    shapes: shapes
+                        .iter()
+                        .map(|part| ShapeRecord {
+                            geometry: geometry(&part.shape),
+                            sensor: part.response == Response::Sensor,
+                        })
+                        .collect(),
+                });
+            }
+        }
+    }
+
+    fn audit(&mut self, world: &World) {
+        let (bodies, pairs, springs) = self.queries.get();
+        let settings = world.resource::<Settings<Planar>>();
+        let clock = world.resource::<Clock>();
+        let mut row = AuditRow { step: clock.step, time: clock.time(), ..AuditRow::default() };
+        // Sums go by rank, so that they do not depend on the order in which bodies were spawned.
+        let mut energies = vec![BodySums::default(); self.of_rank.len()];
+        for (index, x, _, v, w, mass, inertia, scale) in bodies.iter_manual(world) {
+            let scale = scale.map_or(1.0, |scale| scale.0);
+            energies[index.0 as usize] = BodySums {
+                kinetic: 0.5 * (mass.0 * v.0.dot(v.0) + inertia.0 * w.0 * w.0),
+                potential: gravity_potential::<Planar>(settings.gravity, mass.0, scale, x.0),
+                momentum: v.0 * mass.0,
+                angular_momentum: mass.0 * x.0.perp_dot(v.0) + inertia.0 * w.0,
+            };
+        }
+        for sums in &energies {
+            row.kinetic += sums.kinetic;
+            row.potential += sums.potential;
+            row.momentum += sums.momentum;
+            row.angular_momentum += sums.angular_momentum;
+        }
+        for spring in springs.iter_manual(world) {
+            if let (Some(a), Some(b)) = (anchor_point(&spring.a, world), anchor_point(&spring.b, world)) {
+                row.potential += spring_potential(spring.stiffness, spring.rest_length, a, b);
+            }
+        }
+        row.total = row.kinetic + row.potential;
+        let tolerance = settings.touch_tolerance();
+        for (pair, manifold, _) in pairs.iter_manual(world).filter(|(pair, ..)| pair.response == Response::Solid) {
+            if pair.touching {
+                let points = manifold.0.points();
+                row.contacts += points.iter().filter(|point| point.separation <= tolerance).count() as u64;
+                row.deepest_overlap = points.iter().map(|point| -point.separation).fold(row.deepest_overlap, f64::max);
+            }
+        }
+        if let Some(report) = world.resource::<ContactReport>().0 {
+            row.iterations = Some(u64::from(report.iterations));
+            row.residual = Some(report.residual);
+        }
+        self.recording.audit.push(row);
+    }
+
+    fn touches(&mut self, world: &World) {
+        let (clock, table) = (world.resource::<Clock>(), world.resource::<BodyTable>());
+        let Some(messages) = world.get_resource::<Messages<TouchMessage>>() else { return };
+        for message in self.cursor.read(messages) {
+            let index = |id: u64| self.known.get(&id).copied();
+            let (Some(a), Some(b)) = (index(message.pair.a.0), index(message.pair.b.0)) else { continue };
+            self.recording.touches.push(Touch {
+                step: clock.step,
+                time: clock.time(),
+                a,
+                b,
+                phase: match message.phase {
+                    tumble_sim::TouchPhase::Began => TouchPhase::Begin,
+                    tumble_sim::TouchPhase::Ended => TouchPhase::End,
+                },
+                sensor: message.response == Response::Sensor,
+            });
+        }
+        debug_assert!(table.entries().len() == self.of_rank.len(), "structure is followed before touches");
+    }
+
+    fn sample(&mut self, world: &World) {
+        let (bodies, pairs, _) = self.queries.get();
+        let clock = world.resource::<Clock>();
+        let mut states = vec![None; self.recording.bodies.len()];
+        for (index, x, rotation, v, w, ..) in bodies.iter_manual(world) {
+            states[self.of_rank[index.0 as usize]] = Some(BodyState {
+                position: x.0,
+                angle: rotation.0.angle(),
+                velocity: v.0,
+                angular_velocity: w.0,
+            });
+        }
+        let tolerance = world.resource::<Settings<Planar>>().touch_tolerance();
+        let mut touching: Vec<_> =
+            pairs.iter_manual(world).filter(|(pair, ..)| pair.response == Response::Solid).collect();
+        touching.sort_by_key(|(pair, ..)| pair.key);
+        let mut contacts = Vec::new();
+        for (pair, manifold, memory) in touching {
+            for (point, memory) in manifold.0.points().iter().zip(&memory.0) {
+                if point.separation > tolerance && memory.given == DVec2::ZERO {
+                    continue;
+                }
+                contacts.push(ContactRecord {
+                    a: self.of_rank[pair.bodies[0] as usize],
+                    b: self.of_rank[pair.bodies[1] as usize],
+                    point: point.point,
+                    normal: manifold.0.normal,
+                    separation: point.separation,
+                    normal_impulse: memory.given.x,
+                    tangent_impulse: memory.given.y,
+                    kind: Cow::Borrowed(point.kind.as_str()),
+                });
+            }
+        }
+        self.recording.samples.push(Sample { step: clock.step, time: clock.time(), states, contacts });
+    }
+
+    /// Adds the present as a sample that the next step may drop again.
+    fn sample_present(&mut self, world: &World) {
+        let step = world.resource::<Clock>().step;
+        if self.recording.samples.last().is_none_or(|sample| sample.step != step) {
+            self.sample(world);
+            self.provisional = true;
+        }
+    }
+
+    fn drop_provisional(&mut self) {
+        if std::mem::take(&mut self.provisional) {
+            self.recording.samples.pop();
+        }
+    }
+}
+
+/// What one body adds to the sums of an audit row.
+#[derive(Clone, Copy, Default)]
+struct BodySums {
+    kinetic: f64,
+    potential: f64,
+    momentum: DVec2,
+    angular_momentum: f64,
+}
+
+fn anchor_point(anchor: &Anchor<DVec2>, world: &World) -> Option<DVec2> {
+    match *anchor {
+        Anchor::World(point) => Some(point),
+        Anchor::Body(entity, point) => {
+            let position = world.get::<Position<DVec2>>(entity)?.0;
+            let rotation = world.get::<Orientation<PlanarRotation>>(entity)?.0;
+            Some(Pose::<Planar> { position, rotation }.transform_point(point))
+        }
+    }
+}
+
+fn geometry(shape: &PlanarShape) -> Geometry {
+    match shape {
+        PlanarShape::Rod(rod) => Geometry::Rod { from: rod.from(), to: rod.to(), radius: rod.radius() },
+        PlanarShape::Disc(disc) => Geometry::Disc { centre: disc.centre(), radius: disc.radius() },
+        PlanarShape::ConvexPolygon(polygon) => Geometry::Polygon { points: polygon.points().to_vec() },
+        PlanarShape::HalfPlane(plane) => {
+            Geometry::HalfPlane { point: plane.normal() * plane.offset(), normal: plane.normal() }
+        }
+    }
+}
