@@ -28,10 +28,10 @@ pub struct MaterialTable {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialEntry {
-    /// Coefficient of static friction μ_s [1]. Default that of the material's pair with itself, else the kinetic one.
+    /// Coefficient of static friction μ_s [1]. Default the kinetic one, else that of the pair with itself, else 0.
     #[serde(default)]
     pub static_friction: Option<Coefficient>,
-    /// Coefficient of kinetic friction μ_k [1]. Default that of the material's pair with itself, else the static one.
+    /// Coefficient of kinetic friction μ_k [1]. Default the static one, else that of the pair with itself, else 0.
     #[serde(default)]
     pub kinetic_friction: Option<Coefficient>,
     /// Coefficient of restitution ε, from 0 to 1 [1]. Default 0.
@@ -48,7 +48,7 @@ pub struct PairEntry {
     /// Friction of dry surfaces.
     #[serde(default)]
     pub dry: FrictionEntry,
-    /// Friction of lubricated surfaces. What is absent here is taken from the dry ones, with a notice.
+    /// Friction of lubricated surfaces. If only one of the two states is given it stands for the other, with a notice.
     #[serde(default)]
     pub lubricated: FrictionEntry,
     /// Coefficient of restitution ε, from 0 to 1 [1]. Default the larger of the two materials'.

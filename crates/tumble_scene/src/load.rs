@@ -1,0 +1,143 @@
+//! From a file to a scene that can be run, or to all that is wrong with it.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+
+use crate::diagnostics::{Diagnostic, Diagnostics, Position};
+use crate::format::{MaterialTable, Scene};
+use crate::materials::MaterialLibrary;
+use crate::path::ScenePath;
+use crate::text::{self, Grammar, Node};
+use crate::validate::{check_table, validate};
+use crate::write::SCENE;
+
+/// Bytes that a scene file may have.
+const LARGEST_FILE: u64 = 64 << 20;
+
+/// A scene that was read and found free of mistakes.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The scene.
+    pub scene: Scene,
+    /// Materials of all tables that the scene uses.
+    pub materials: MaterialLibrary,
+    /// What may not mean what it says.
+    pub warnings: Diagnostics,
+    text: String,
+    root: Node,
+}
+
+impl Loaded {
+    /// Puts findings of a later check (such as bodies that overlap at the start) beside the text they are about.
+    pub fn diagnose(&self, findings: impl IntoIterator<Item = Diagnostic>) -> Diagnostics {
+        let mut diagnostics = Diagnostics::new(self.warnings.origin(), self.text.as_str());
+        diagnostics.extend(findings.into_iter().map(|finding| finding.located(|path| self.root.locate(path))));
+        diagnostics
+    }
+}
+
+impl Scene {
+    /// Reads a scene from a text. `origin` names the text in messages; paths inside the scene are relative to its folder.
+    pub fn parse(text: &str, origin: impl AsRef<Path>) -> Result<Loaded, Diagnostics> {
+        let origin = origin.as_ref();
+        // A byte order mark is no part of the text.
+        let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
+        let (scene, root, mut diagnostics) = read_checked::<Self>(text, &SCENE, origin)?;
+        let folder = origin.parent().unwrap_or(Path::new(""));
+        let mut tables = Vec::new();
+        for (index, file) in scene.materials_from.iter().enumerate() {
+            match load_table(&folder.join(file)) {
+                Ok(table) => tables.push(table),
+                Err(mistakes) => {
+                    let path = ScenePath::root().field("materials_from").index(index);
+                    let diagnostic = Diagnostic::error(format!("the material table \"{file}\" cannot be used"))
+                        .about(path)
+                        .labelled("named here");
+                    diagnostics.push(diagnostic.located(|path| root.locate(path)));
+                    diagnostics.append_file(mistakes);
+                }
+            }
+        }
+        let materials = MaterialLibrary::with_tables(&scene, &tables);
+        // Without all tables every material could be unknown, so only what is certain is told.
+        if !diagnostics.has_errors() {
+            let findings = validate(&scene, &materials);
+            diagnostics.extend(findings.into_iter().map(|finding| finding.located(|path| root.locate(path))));
+        }
+        if diagnostics.has_errors() {
+            return Err(diagnostics);
+        }
+        Ok(Loaded { scene, materials, warnings: diagnostics, text: text.to_owned(), root })
+    }
+
+    /// Reads a scene from a file.
+    pub fn load(path: impl AsRef<Path>) -> Result<Loaded, Diagnostics> {
+        let path = path.as_ref();
+        Self::parse(&read_file(path)?, path)
+    }
+
+    /// Checks a scene that was built in code; gives its warnings.
+    pub fn check(&self, materials: &MaterialLibrary) -> Result<Vec<Diagnostic>, Diagnostics> {
+        let findings = validate(self, materials);
+        let mut diagnostics = Diagnostics::new("the scene", "");
+        diagnostics.extend(findings.iter().cloned());
+        if diagnostics.has_errors() { Err(diagnostics) } else { Ok(findings) }
+    }
+}
+
+/// Reads a table of materials from a file.
+pub fn load_table(path: &Path) -> Result<MaterialTable, Diagnostics> {
+    let text = read_file(path)?;
+    let (table, root, mut diagnostics) = read_checked(&text, &Grammar::of::<MaterialTable>(), path)?;
+    diagnostics.extend(check_table(&table).into_iter().map(|finding| finding.located(|path| root.locate(path))));
+    if diagnostics.has_errors() { Err(diagnostics) } else { Ok(table) }
+}
+
+/// Reads a value and its tree, or every mistake of its syntax and structure.
+fn read_checked<T: DeserializeOwned + JsonSchema>(
+    text: &str,
+    grammar: &Grammar,
+    origin: &Path,
+) -> Result<(T, Node, Diagnostics), Diagnostics> {
+    let mut diagnostics = Diagnostics::new(origin.display().to_string(), text);
+    let (root, mistakes) = text::parse(text);
+    diagnostics.extend(mistakes);
+    if let Some(root) = &root {
+        diagnostics.extend(text::check(text, root, grammar));
+    }
+    let Some(root) = root.filter(|_| !diagnostics.has_errors()) else { return Err(diagnostics) };
+    match text::read(text) {
+        Ok(value) => Ok((value, root, diagnostics)),
+        Err(error) => {
+            let at =
+                |position: ron::error::Position| Position { line: position.line, column: position.col }.byte_in(text);
+            let start = at(error.span.start);
+            let span = start..at(error.span.end).max(start);
+            diagnostics.push(Diagnostic::error("this cannot be read").at(span).labelled(error.code.to_string()));
+            Err(diagnostics)
+        }
+    }
+}
+
+/// The text of a file, or why there is none.
+fn read_file(path: &Path) -> Result<String, Diagnostics> {
+    let refuse = |message: String| Diagnostics::about_file(path.display().to_string(), Diagnostic::error(message));
+    if path.is_dir() {
+        return Err(refuse(format!("\"{}\" is a folder, not a file", path.display())));
+    }
+    let cannot = |error: std::io::Error| refuse(format!("\"{}\" cannot be read: {error}", path.display()));
+    let mut bytes = Vec::new();
+    File::open(path).map_err(cannot)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(cannot)?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(refuse(format!("\"{}\" is larger than {} MiB", path.display(), LARGEST_FILE >> 20)));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let good = error.utf8_error().valid_up_to();
+        let line = 1 + error.as_bytes()[..good].iter().filter(|&&byte| byte == b'\n').count();
+        refuse(format!("\"{}\" is not a text in UTF-8: see line {line}", path.display()))
+    })
+}

@@ -1,0 +1,297 @@
+//! Friction and restitution of a pair of materials.
+//!
+//! Tables are stacked: the lecture's at the bottom, then the files of `materials_from` in their order, then what the scene itself says.
+//! For a pair (a, b) the topmost table that speaks of it decides, and inside a table a pair is stronger than two materials:
+//!
+//! ```text
+//! listed pair     friction in the scene's surface state, one figure out of a range (`take`)
+//! unlisted pair   μ = √(μ_a μ_b), each from the material itself or else from its pair with itself
+//! restitution     of the pair, else max(ε_a, ε_b), else 0
+//! ```
+//!
+//! The geometric mean and the maximum are the rules of Box2D and Jolt: a material against itself keeps its own figures, a frictionless
+//! partner makes the pair frictionless, and a rubber ball bounces on whatever it meets.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use crate::format::{Coefficient, FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Scene, Surface, Take};
+
+/// The lecture's table of friction coefficients, as the file that is shipped.
+pub const LECTURE_TABLE: &str = include_str!("../../../assets/materials/lecture.ron");
+
+/// The material of bodies that name none; frictionless and without bounce unless a table defines it.
+pub const DEFAULT_MATERIAL: &str = "default";
+
+/// What contact between two materials feels like.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PairProperties {
+    /// Coefficient of static friction μ_s [1].
+    pub static_friction: f64,
+    /// Coefficient of kinetic friction μ_k [1].
+    pub kinetic_friction: f64,
+    /// Coefficient of restitution ε, from 0 to 1 [1].
+    pub restitution: f64,
+}
+
+/// Something worth knowing about the figures of a pair.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialNotice {
+    /// Only one coefficient is known and stands for both.
+    OneForBoth {
+        /// The coefficient that is absent: "static" or "kinetic".
+        absent: &'static str,
+        /// The figure that stands for it [1].
+        value: f64,
+    },
+    /// Kinetic friction is above static friction.
+    KineticAboveStatic {
+        /// Coefficient of static friction [1].
+        static_friction: f64,
+        /// Coefficient of kinetic friction [1].
+        kinetic_friction: f64,
+    },
+    /// The pair has figures for the other surface state only.
+    OtherSurface {
+        /// The state whose figures are used.
+        used: Surface,
+    },
+    /// A material occurs in pairs only, none of which says how it rubs against others: no friction.
+    NoFriction {
+        /// The material.
+        material: String,
+    },
+}
+
+impl fmt::Display for MaterialNotice {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::OneForBoth { absent, value } => {
+                write!(formatter, "no {absent} friction is known, so it is taken as {value}, like the other one")
+            }
+            Self::KineticAboveStatic { static_friction, kinetic_friction } => {
+                write!(formatter, "kinetic friction {kinetic_friction} is above static friction {static_friction}")
+            }
+            Self::OtherSurface { used } => {
+                let state = if *used == Surface::Dry { "dry" } else { "lubricated" };
+                write!(formatter, "friction is known only for {state} surfaces, whose figures are used")
+            }
+            Self::NoFriction { material } => {
+                write!(formatter, "no table tells the friction of \"{material}\" against it, so there is none")
+            }
+        }
+    }
+}
+
+/// Properties of a pair and what is worth knowing about them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ResolvedPair {
+    /// The figures.
+    pub properties: PairProperties,
+    /// Notices about the figures.
+    pub notices: Vec<MaterialNotice>,
+}
+
+/// A stack of material tables.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MaterialLibrary {
+    surface: Surface,
+    take: Take,
+    /// Number of tables in the stack.
+    tables: usize,
+    materials: BTreeMap<String, Material>,
+    pairs: BTreeMap<(String, String), Pair>,
+}
+
+/// A figure and the table it came from, counted from the bottom.
+type FromTable<T> = Option<(usize, T)>;
+
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Material {
+    /// Whether a table has an entry for it; others occur in pairs only.
+    is_declared: bool,
+    friction: FromTable<FrictionEntry>,
+    restitution: FromTable<f64>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Pair {
+    dry: FromTable<FrictionEntry>,
+    lubricated: FromTable<FrictionEntry>,
+    restitution: FromTable<f64>,
+}
+
+impl MaterialLibrary {
+    /// The lecture's table and what a scene says itself, without the files it names.
+    pub fn of_scene(scene: &Scene) -> Self {
+        Self::with_tables(scene, &[])
+    }
+
+    /// The lecture's table, further tables, and what a scene says itself.
+    pub fn with_tables(scene: &Scene, tables: &[MaterialTable]) -> Self {
+        let mut library = Self { surface: scene.surface, take: scene.take, ..Self::default() };
+        library.add_table(&lecture_table());
+        for table in tables {
+            library.add_table(table);
+        }
+        library.add(&scene.materials, &scene.pairs);
+        library
+    }
+
+    /// Puts a table on top of the stack.
+    pub fn add_table(&mut self, table: &MaterialTable) {
+        self.add(&table.materials, &table.pairs);
+    }
+
+    fn add(&mut self, materials: &BTreeMap<String, MaterialEntry>, pairs: &[PairEntry]) {
+        let table = self.tables;
+        self.tables += 1;
+        for (name, entry) in materials {
+            let material = self.materials.entry(name.clone()).or_default();
+            material.is_declared = true;
+            let friction = FrictionEntry {
+                static_friction: entry.static_friction,
+                kinetic_friction: entry.kinetic_friction,
+                note: String::new(),
+            };
+            replace(&mut material.friction, table, friction.is_given().then_some(friction));
+            replace(&mut material.restitution, table, entry.restitution);
+        }
+        for entry in pairs {
+            let (a, b) = &entry.between;
+            for name in [a, b] {
+                self.materials.entry(name.clone()).or_default();
+            }
+            let pair = self.pairs.entry(sorted(a, b)).or_default();
+            replace(&mut pair.dry, table, entry.dry.is_given().then(|| entry.dry.clone()));
+            replace(&mut pair.lubricated, table, entry.lubricated.is_given().then(|| entry.lubricated.clone()));
+            replace(&mut pair.restitution, table, entry.restitution);
+        }
+    }
+
+    /// Names of all materials in alphabetical order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.materials.keys().map(String::as_str)
+    }
+
+    /// Whether bodies may be made of it.
+    pub fn knows(&self, material: &str) -> bool {
+        material == DEFAULT_MATERIAL || self.materials.contains_key(material)
+    }
+
+    /// Figures of a pair, in either order of the names.
+    pub fn pair(&self, a: &str, b: &str) -> ResolvedPair {
+        let mut notices = Vec::new();
+        let (static_friction, kinetic_friction) = self.friction(a, b, &mut notices);
+        if kinetic_friction > static_friction {
+            notices.push(MaterialNotice::KineticAboveStatic { static_friction, kinetic_friction });
+        }
+        let restitution = self.restitution(a, b);
+        ResolvedPair { properties: PairProperties { static_friction, kinetic_friction, restitution }, notices }
+    }
+
+    fn friction(&self, a: &str, b: &str, notices: &mut Vec<MaterialNotice>) -> (f64, f64) {
+        let of_pair = self.friction_of_pair(a, b);
+        let of_materials =
+            [a, b].into_iter().filter_map(|name| Some(self.materials.get(name)?.friction.as_ref()?.0)).max();
+        if let Some((table, friction, used)) = of_pair
+            && of_materials.is_none_or(|material_table| table >= material_table)
+        {
+            if used != self.surface {
+                notices.push(MaterialNotice::OtherSurface { used });
+            }
+            return self.both(friction, notices);
+        }
+        // The same names in the other order must give the same bits: multiplication commutes.
+        let (static_a, kinetic_a) = self.friction_of_material(a, notices);
+        let (static_b, kinetic_b) = if a == b { (static_a, kinetic_a) } else { self.friction_of_material(b, notices) };
+        (geometric_mean(static_a, static_b), geometric_mean(kinetic_a, kinetic_b))
+    }
+
+    /// The listed friction of a pair, the table it is from and the surface state it is for.
+    fn friction_of_pair(&self, a: &str, b: &str) -> Option<(usize, &FrictionEntry, Surface)> {
+        let pair = self.pairs.get(&sorted(a, b))?;
+        let dry = pair.dry.as_ref().map(|(table, friction)| (*table, friction, Surface::Dry));
+        let lubricated = pair.lubricated.as_ref().map(|(table, friction)| (*table, friction, Surface::Lubricated));
+        match self.surface {
+            Surface::Dry => dry.or(lubricated),
+            Surface::Lubricated => lubricated.or(dry),
+        }
+    }
+
+    /// What a material brings into unlisted pairs.
+    fn friction_of_material(&self, name: &str, notices: &mut Vec<MaterialNotice>) -> (f64, f64) {
+        let own = self.materials.get(name).and_then(|material| material.friction.as_ref());
+        let with_itself = self.friction_of_pair(name, name);
+        match (own, with_itself) {
+            // One coefficient of a material is documented to stand for both, so nothing is noticed.
+            (Some((_, friction)), None) => self.both(friction, &mut Vec::new()),
+            (Some((table, friction)), Some((pair_table, ..))) if *table > pair_table => {
+                self.both(friction, &mut Vec::new())
+            }
+            (_, Some((_, friction, _))) => self.both(friction, notices),
+            (None, None) => {
+                let is_declared = self.materials.get(name).is_none_or(|material| material.is_declared);
+                if !is_declared {
+                    notices.push(MaterialNotice::NoFriction { material: name.to_owned() });
+                }
+                (0.0, 0.0)
+            }
+        }
+    }
+
+    /// Static and kinetic coefficient, one standing for the other where it is absent.
+    fn both(&self, friction: &FrictionEntry, notices: &mut Vec<MaterialNotice>) -> (f64, f64) {
+        let take = |coefficient: Option<Coefficient>| coefficient.map(|coefficient| coefficient.take(self.take));
+        match (take(friction.static_friction), take(friction.kinetic_friction)) {
+            (Some(static_friction), Some(kinetic_friction)) => (static_friction, kinetic_friction),
+            (Some(value), None) => {
+                notices.push(MaterialNotice::OneForBoth { absent: "kinetic", value });
+                (value, value)
+            }
+            (None, Some(value)) => {
+                notices.push(MaterialNotice::OneForBoth { absent: "static", value });
+                (value, value)
+            }
+            (None, None) => (0.0, 0.0),
+        }
+    }
+
+    fn restitution(&self, a: &str, b: &str) -> f64 {
+        let of_pair = self.pairs.get(&sorted(a, b)).and_then(|pair| pair.restitution);
+        let of_material = |name| self.materials.get(name).and_then(|material: &Material| material.restitution);
+        let (of_a, of_b) = (of_material(a), of_material(b));
+        let table = |figure: FromTable<f64>| figure.map(|(table, _)| table);
+        match of_pair {
+            Some((pair_table, restitution)) if Some(pair_table) >= table(of_a).max(table(of_b)) => restitution,
+            _ => [of_a, of_b].into_iter().flatten().map(|(_, restitution)| restitution).fold(0.0, f64::max),
+        }
+    }
+}
+
+impl FrictionEntry {
+    /// Whether any figure is there.
+    fn is_given(&self) -> bool {
+        self.static_friction.is_some() || self.kinetic_friction.is_some()
+    }
+}
+
+/// The lecture's table.
+pub fn lecture_table() -> MaterialTable {
+    crate::text::read(LECTURE_TABLE).expect("the shipped table of materials is well formed")
+}
+
+fn replace<T>(place: &mut FromTable<T>, table: usize, value: Option<T>) {
+    if let Some(value) = value {
+        *place = Some((table, value));
+    }
+}
+
+fn sorted(a: &str, b: &str) -> (String, String) {
+    if a <= b { (a.to_owned(), b.to_owned()) } else { (b.to_owned(), a.to_owned()) }
+}
+
+/// √(a b), exactly a where both are equal.
+fn geometric_mean(a: f64, b: f64) -> f64 {
+    if a == b { a } else { (a * b).sqrt() }
+}

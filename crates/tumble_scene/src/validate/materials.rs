@@ -1,0 +1,115 @@
+//! Figures of materials and pairs, and notices about those that a scene uses.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::Findings;
+use crate::diagnostics::Diagnostic;
+use crate::expand::count;
+use crate::format::{BodyKind, Coefficient, FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Scene};
+use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
+use crate::path::ScenePath;
+
+/// Every mistake of a table.
+pub(crate) fn check_table(table: &MaterialTable) -> Vec<Diagnostic> {
+    let mut found = Findings { list: Vec::new() };
+    if table.format != Scene::FORMAT {
+        let label = format!("this version of tumble reads format {}", Scene::FORMAT);
+        found.error(&ScenePath::root().field("format"), format!("format {} is not known", table.format), label);
+    }
+    figures(&table.materials, &table.pairs, &mut found);
+    found.list
+}
+
+pub(super) fn check(scene: &Scene, found: &mut Findings) {
+    figures(&scene.materials, &scene.pairs, found);
+}
+
+fn figures(materials: &BTreeMap<String, MaterialEntry>, pairs: &[PairEntry], found: &mut Findings) {
+    for (name, material) in materials {
+        let path = ScenePath::root().field("materials").key(name);
+        friction(&path, material.static_friction, material.kinetic_friction, found);
+        restitution(&path, material.restitution, found);
+    }
+    let mut listed: BTreeMap<BTreeSet<&str>, usize> = BTreeMap::new();
+    for (index, pair) in pairs.iter().enumerate() {
+        let path = ScenePath::root().field("pairs").index(index);
+        let (a, b) = &pair.between;
+        if let Some(first) = listed.insert(BTreeSet::from([a.as_str(), b.as_str()]), index) {
+            let first_path = ScenePath::root().field("pairs").index(first).field("between");
+            let message = format!("the pair \"{a}\" and \"{b}\" is listed twice");
+            let diagnostic = Diagnostic::error(message).about(path.field("between")).labelled("again here");
+            found.add(diagnostic.also_about(first_path, "first here"));
+        }
+        for (state, FrictionEntry { static_friction, kinetic_friction, .. }) in
+            [("dry", &pair.dry), ("lubricated", &pair.lubricated)]
+        {
+            friction(&path.field(state), *static_friction, *kinetic_friction, found);
+        }
+        restitution(&path, pair.restitution, found);
+    }
+}
+
+fn friction(path: &ScenePath, of_rest: Option<Coefficient>, of_motion: Option<Coefficient>, found: &mut Findings) {
+    for (field, coefficient) in [("static_friction", of_rest), ("kinetic_friction", of_motion)] {
+        let Some(Coefficient { low, high }) = coefficient else { continue };
+        let path = path.field(field);
+        if low > high {
+            found.error(&path, "a range goes from low to high", format!("{low} is above {high}"));
+        }
+        found.not_negative(&path, "a friction coefficient", low.min(high));
+    }
+}
+
+fn restitution(path: &ScenePath, restitution: Option<f64>, found: &mut Findings) {
+    let Some(restitution) = restitution else { return };
+    if !(0.0..=1.0).contains(&restitution) {
+        let message = "restitution must be from 0 to 1";
+        found.error(&path.field("restitution"), message, format!("{restitution} is outside"));
+    }
+}
+
+/// Notices about every pair of materials that bodies of the scene could bring together.
+pub(super) fn notices(scene: &Scene, library: &MaterialLibrary, found: &mut Findings) {
+    let uses = uses(scene);
+    let materials: Vec<(&String, &Use)> = uses.iter().collect();
+    for (index, (a, use_a)) in materials.iter().enumerate() {
+        for (b, use_b) in &materials[index..] {
+            let can_meet = (use_a.movers > 0 || use_b.movers > 0) && (a != b || use_a.bodies > 1);
+            if !can_meet {
+                continue;
+            }
+            for notice in library.pair(a, b).notices {
+                let message = format!("\"{a}\" on \"{b}\": {notice}");
+                let diagnostic = Diagnostic::warning(message).about(use_a.path.clone()).labelled("used here");
+                found.add(if a == b { diagnostic } else { diagnostic.also_about(use_b.path.clone(), "and here") });
+            }
+        }
+    }
+}
+
+/// Where and how often a material is used.
+struct Use {
+    path: ScenePath,
+    bodies: u64,
+    movers: u64,
+}
+
+fn uses(scene: &Scene) -> BTreeMap<String, Use> {
+    let mut uses: BTreeMap<String, Use> = BTreeMap::new();
+    for (index, body) in scene.bodies.iter().enumerate() {
+        let path = ScenePath::root().field("bodies").index(index);
+        let own = body.material.as_deref().unwrap_or(DEFAULT_MATERIAL);
+        let mut names: BTreeMap<String, ScenePath> = BTreeMap::new();
+        for part in scene.flat_parts(body) {
+            let material = part.material().unwrap_or(own).to_owned();
+            let field = if part.material().is_none() && body.material.is_some() { "material" } else { "name" };
+            names.entry(material).or_insert_with(|| path.field(field));
+        }
+        for (name, path) in names {
+            let entry = uses.entry(name).or_insert(Use { path, bodies: 0, movers: 0 });
+            entry.bodies += count(body);
+            entry.movers += if body.kind == BodyKind::Dynamic { count(body) } else { 0 };
+        }
+    }
+    uses
+}

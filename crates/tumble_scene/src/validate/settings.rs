@@ -1,0 +1,67 @@
+//! The settings at the top of a scene.
+
+use super::Findings;
+use crate::format::Scene;
+use crate::path::ScenePath;
+
+pub(super) fn check(scene: &Scene, found: &mut Findings) {
+    let top = ScenePath::root();
+    if scene.format != Scene::FORMAT {
+        let message = format!("format {} is not known", scene.format);
+        found.error(&top.field("format"), message, format!("this version of tumble reads format {}", Scene::FORMAT));
+    }
+    found.positive(&top.field("dt"), "the time step dt", scene.dt);
+    found.positive(&top.field("duration"), "the duration", scene.duration);
+    if scene.duration > 0.0 && scene.dt > scene.duration {
+        let label = format!("{} s, but one step takes {} s", scene.duration, scene.dt);
+        found.error(&top.field("duration"), "the duration is shorter than one step", label);
+    }
+    found.positive(&top.field("length_scale"), "the length scale", scene.length_scale);
+    if let Some(slop) = scene.slop {
+        found.not_negative(&top.field("slop"), "the slop", slop);
+    }
+    if scene.every == 0 {
+        found.error(&top.field("every"), "`every` must be at least 1", "a sample every 0 steps");
+    }
+    if scene.bodies.is_empty() {
+        found.warning(&top, "the scene has no bodies", "nothing will happen");
+    }
+    models(scene, found);
+}
+
+fn models(scene: &Scene, found: &mut Findings) {
+    let penalty = &scene.models.penalty;
+    let path = ScenePath::root().field("models").field("penalty");
+    let positive = [
+        ("stiffness", "the stiffness of penalty contact", penalty.stiffness),
+        ("slip_speed", "the slip speed of penalty contact", penalty.slip_speed),
+    ];
+    for (field, what, value) in positive {
+        if let Some(value) = value {
+            found.positive(&path.field(field), what, value);
+        }
+    }
+    let not_negative = [
+        ("damping", "the damping of penalty contact", penalty.damping),
+        ("viscosity", "the viscosity of penalty contact", penalty.viscosity),
+    ];
+    for (field, what, value) in not_negative {
+        if let Some(value) = value {
+            found.not_negative(&path.field(field), what, value);
+        }
+    }
+    let impulse = &scene.models.impulse;
+    let path = ScenePath::root().field("models").field("impulse");
+    for (field, value) in [("iterations", impulse.iterations), ("max_impulses", impulse.max_impulses)] {
+        if value == Some(0) {
+            found.error(
+                &path.field(field),
+                format!("`{field}` must be at least 1"),
+                "contacts would not be solved at all",
+            );
+        }
+    }
+    if let Some(tolerance) = impulse.colliding_tolerance {
+        found.not_negative(&path.field("colliding_tolerance"), "the colliding tolerance", tolerance);
+    }
+}
