@@ -29,7 +29,7 @@ pub use contact::{
     TouchPhase,
 };
 pub use error::{BodyError, StepError, UnknownBody};
-pub use force::{Anchor, AppliedForce, Axes, ForceCourse, GravityScale, LinearDrag, QuadraticDrag, Spring};
+pub use force::{Anchor, AppliedForce, Axes, Course, GravityScale, LinearDrag, QuadraticDrag, Spring};
 pub use geometry::Geometry;
 pub use notice::Notices;
 pub use part::{Amount, Groups, MaterialId, Part, PartOf, Parts, Response};

@@ -140,6 +140,17 @@ pub(crate) fn begin_schedule() -> Schedule {
     schedule
 }
 
+/// Phase 5 alone, to look at contacts without answering them.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Look;
+
+/// Phase 5 alone.
+pub(crate) fn look_schedule<D: Geometry>() -> Schedule {
+    let mut schedule = sequential(Look);
+    schedule.add_systems(detection::<D>());
+    schedule
+}
+
 /// Registers the systems of a need.
 pub(crate) fn add_systems<D: Geometry>(need: Need, step: &mut Schedule, begin: &mut Schedule) {
     match need {

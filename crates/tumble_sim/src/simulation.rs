@@ -15,16 +15,16 @@ use crate::body::{
     prepare_bodies,
 };
 use crate::contact::{
-    Colliders, ContactMemory, ContactProblem, ContactReport, Detection, IgnoredPairs, Materials, PointMemory,
-    PositionCorrections, PreviousEnds, Touch, prepare_colliders, renumber_pairs,
+    Colliders, ContactManifold, ContactMemory, ContactPair, ContactProblem, ContactReport, Detection, IgnoredPairs,
+    Materials, PairKey, PointMemory, PositionCorrections, PreviousEnds, Touch, prepare_colliders, renumber_pairs,
 };
 use crate::error::{StepError, UnknownBody};
 use crate::fault::Fault;
 use crate::geometry::Geometry;
 use crate::needs::{Need, needs};
 use crate::notice::Notices;
-use crate::part::{Part, PartOf};
-use crate::schedule::{ForceSystems, UserForce, add_systems, begin_schedule, step_schedule};
+use crate::part::{Part, PartOf, Response};
+use crate::schedule::{ForceSystems, UserForce, add_systems, begin_schedule, look_schedule, step_schedule};
 use crate::settings::{Integrator, Settings};
 use crate::structure::Structure;
 
@@ -43,6 +43,7 @@ pub struct Simulation<D: Geometry = Planar> {
     world: World,
     step: Schedule,
     begin: Schedule,
+    look: Schedule,
     after_step: Vec<Box<dyn FnMut(&mut World) + Send + Sync>>,
     known: BTreeSet<Need>,
     user_forces: usize,
@@ -86,6 +87,7 @@ impl<D: Geometry> Simulation<D> {
             world,
             step: step_schedule::<D>(),
             begin: begin_schedule(),
+            look: look_schedule::<D>(),
             after_step: Vec::new(),
             known: BTreeSet::new(),
             user_forces: 0,
@@ -204,6 +206,35 @@ impl<D: Geometry> Simulation<D> {
         self.known.append(&mut needs::<D>(&mut self.world));
         self.world.insert_resource(Structure::Known);
         Ok(())
+    }
+
+    /// Finds contacts as they are now, without answering them.
+    ///
+    /// # Errors
+    ///
+    /// When a body cannot be simulated.
+    pub fn detect(&mut self) -> Result<(), StepError> {
+        self.prepare()?;
+        if self.known.contains(&Need::Detection) {
+            self.look.run(&mut self.world);
+        }
+        Ok(())
+    }
+
+    /// Pairs of bodies that overlap by more than `depth` as of the last detection, each with its overlap [m].
+    pub fn overlaps_deeper_than(&mut self, depth: f64) -> Vec<(PairKey, f64)> {
+        let mut pairs = self.world.query::<(&ContactPair, &ContactManifold<D>)>();
+        let mut overlaps: Vec<(PairKey, f64)> = pairs
+            .iter(&self.world)
+            .filter(|(pair, _)| pair.response == Response::Solid)
+            .map(|(pair, manifold)| {
+                let points = D::points(&manifold.0).iter();
+                (pair.key, points.map(|point| -point.separation).fold(0.0, f64::max))
+            })
+            .filter(|(_, overlap)| *overlap > depth)
+            .collect();
+        overlaps.sort_by_key(|(key, _)| *key);
+        overlaps
     }
 
     /// The body of a name.

@@ -4,6 +4,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 use tumble_math::{Linear, Planar, PlanarRotation};
 
+use super::table::PartFrame;
 use super::{AngularVelocity, BodyInertia, LinearVelocity, Mass, Orientation, Position};
 use crate::geometry::Geometry;
 
@@ -63,6 +64,11 @@ impl<'w, D: Geometry> BodyView<'w, D> {
     /// Inertia about the centre of mass, in body axes [kg·m²].
     pub fn inertia(&self) -> D::Inertia {
         self.component::<BodyInertia<D::Inertia>>().0
+    }
+
+    /// Body-frame place of a point of the frame in which the body's parts are written [m].
+    pub fn from_part_frame(&self, point: D::Vector) -> D::Vector {
+        point + self.entity.get::<PartFrame<D::Vector>>().map_or(D::Vector::ZERO, |frame| frame.0)
     }
 
     /// ½ m v² + ½ ω · I ω [J].

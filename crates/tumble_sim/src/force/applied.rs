@@ -1,7 +1,7 @@
-//! Forces and torques that follow a course over time: constant, for a while, or piecewise linear (the quiz's growing push, L12).
+//! Forces and torques that follow a course over time: constant, for a while, or growing (the quiz's push, L12).
 
 use bevy_ecs::prelude::*;
-use tumble_math::{Dim, Linear, Rotation};
+use tumble_math::{Dim, Rotation};
 
 use crate::Clock;
 use crate::body::{Force, InDim, Orientation, Torque};
@@ -16,45 +16,45 @@ pub enum Axes {
     Body,
 }
 
-/// A quantity over time.
+/// When a force acts, and how strongly.
 #[derive(Clone, Debug, PartialEq)]
-pub enum ForceCourse<T> {
-    /// The same at all times.
-    Constant(T),
-    /// The same from one time to another [s], else nothing.
-    Window {
-        /// First instant [s].
-        from: f64,
-        /// First instant without it [s].
-        until: f64,
-        /// The quantity.
-        value: T,
-    },
-    /// Straight lines between (time [s], value) with rising times; nothing before the first and after the last.
-    Lines(Vec<(f64, T)>),
+pub struct Course {
+    /// First instant [s].
+    pub from: f64,
+    /// First instant without it; infinite for ever [s].
+    pub until: f64,
+    /// Factor over time: straight lines between (time [s], factor [1]) with rising times, held outside; empty means 1.
+    pub factor: Vec<(f64, f64)>,
 }
 
-impl<T: Linear> ForceCourse<T> {
-    /// The quantity at a time.
-    pub fn at(&self, time: f64) -> T {
-        match self {
-            Self::Constant(value) => *value,
-            Self::Window { from, until, value } => {
-                if (*from..*until).contains(&time) {
-                    *value
-                } else {
-                    T::ZERO
-                }
-            }
-            Self::Lines(points) => {
-                let after = points.partition_point(|(at, _)| *at <= time);
-                match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
-                    (Some((t0, v0)), Some(&(t1, v1))) => v0 + (v1 - v0) * ((time - t0) / (t1 - t0)),
-                    // The last point still counts at its own time.
-                    (Some((at, value)), None) if at == time => value,
-                    _ => T::ZERO,
-                }
-            }
+impl Default for Course {
+    /// Always, at full strength.
+    fn default() -> Self {
+        Self { from: 0.0, until: f64::INFINITY, factor: Vec::new() }
+    }
+}
+
+impl Course {
+    /// From one time until another [s].
+    pub fn window(from: f64, until: f64) -> Self {
+        Self { from, until, ..Self::default() }
+    }
+
+    /// A factor that follows straight lines between (time [s], factor [1]).
+    pub fn lines(factor: impl Into<Vec<(f64, f64)>>) -> Self {
+        Self { factor: factor.into(), ..Self::default() }
+    }
+
+    /// The factor at a time; 0 outside the window [1].
+    pub fn at(&self, time: f64) -> f64 {
+        if !(self.from..self.until).contains(&time) {
+            return 0.0;
+        }
+        let after = self.factor.partition_point(|(at, _)| *at <= time);
+        match (after.checked_sub(1).map(|i| self.factor[i]), self.factor.get(after)) {
+            (Some((t0, f0)), Some(&(t1, f1))) => f0 + (f1 - f0) * ((time - t0) / (t1 - t0)),
+            (Some((_, held)), None) | (None, Some(&(_, held))) => held,
+            (None, None) => 1.0,
         }
     }
 }
@@ -68,12 +68,14 @@ pub struct AppliedForce<D: Dim> {
     pub body: Entity,
     /// Where the force acts, in the body frame [m].
     pub point: D::Vector,
-    /// The force [N].
-    pub force: ForceCourse<D::Vector>,
-    /// The torque, in world axes [N·m].
-    pub torque: ForceCourse<D::Angular>,
+    /// The force at factor 1 [N].
+    pub force: D::Vector,
+    /// The torque at factor 1, besides that of the force [N·m].
+    pub torque: D::Angular,
     /// Axes of the force.
     pub axes: Axes,
+    /// When and how strongly.
+    pub course: Course,
 }
 
 /// Adds all applied forces.
@@ -84,13 +86,14 @@ pub fn apply_forces<D: Dim<Vector: InDim>>(
 ) {
     let time = clock.time_after_step();
     for applied in &applied {
+        let factor = applied.course.at(time);
         let Ok((orientation, mut force, mut torque)) = bodies.get_mut(applied.body) else { continue };
-        let mut push = applied.force.at(time);
+        let mut push = applied.force * factor;
         if applied.axes == Axes::Body {
             push = orientation.0.rotate(push);
         }
         let arm = orientation.0.rotate(applied.point);
         force.bypass_change_detection().0 += push;
-        torque.bypass_change_detection().0 += D::torque(arm, push) + applied.torque.at(time);
+        torque.bypass_change_detection().0 += D::torque(arm, push) + applied.torque * factor;
     }
 }

@@ -5,7 +5,7 @@ mod drag;
 mod gravity;
 mod spring;
 
-pub use applied::{AppliedForce, Axes, ForceCourse, apply_forces};
+pub use applied::{AppliedForce, Axes, Course, apply_forces};
 pub use drag::{LinearDrag, QuadraticDrag, apply_linear_drag, apply_quadratic_drag};
 pub use gravity::{GravityScale, apply_gravity, apply_scaled_gravity, gravity_potential};
 pub use spring::{Anchor, Spring, apply_springs, spring_potential};
