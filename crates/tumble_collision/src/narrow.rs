@@ -13,7 +13,9 @@ pub struct Query<'a, V, const N: usize> {
     pub margin: f64,
     /// Overlap that counts as lying flush, so that sliding over a seam meets no side of the next shape [m].
     ///
-    /// The slop is a good value. Zero switches the rule off; see [`planar`].
+    /// Twice the slop is a good value: resting shapes sink in by the slop and sometimes a little more. It must stay well below the
+    /// size of any sharp feature, because shapes that pass each other no deeper than this do not collide. Zero switches the rule
+    /// off; see [`planar`].
     pub flush_tolerance: f64,
     /// The same pair's manifold of the step before. It decides on which side of a thin rod the other shape belongs.
     pub previous: Option<&'a Manifold<V, N>>,

@@ -147,6 +147,10 @@ impl<V: Vector> Tree<V> {
             let [left, right] = self.node(index).children;
             let bounds = self.node(left).bounds.join(self.node(right).bounds);
             let node = self.node_mut(index);
+            // What does not change here changes nothing above.
+            if node.bounds == bounds {
+                return;
+            }
             node.bounds = bounds;
             index = node.parent;
         }

@@ -110,9 +110,3 @@ impl Listed for Vec<(DVec2, DVec2, f64)> {
         self
     }
 }
-
-impl Listed for &Vec<(DVec2, DVec2, f64)> {
-    fn list(self) -> Vec<(DVec2, DVec2, f64)> {
-        self.clone()
-    }
-}
