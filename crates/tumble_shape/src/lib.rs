@@ -14,6 +14,18 @@
 //!
 //! - [`planar`]: [`Rod`], [`Disc`], [`ConvexPolygon`], [`HalfPlane`] and the enum over them, [`PlanarShape`];
 //! - [`mass`]: [`MassProperties`] and the parallel-axis theorem, in the plane and in space.
+//!
+//! ```
+//! use glam::DVec2;
+//! use tumble_shape::{MassProperties, PlanarShape, Rod};
+//!
+//! // An L of two rods, 1 kg/m each.
+//! let foot = PlanarShape::from(Rod::try_new(DVec2::ZERO, DVec2::new(2.0, 0.0), 0.0)?);
+//! let stem = PlanarShape::from(Rod::try_new(DVec2::ZERO, DVec2::new(0.0, 1.0), 0.0)?);
+//! let whole = MassProperties::combine([foot, stem].iter().filter_map(|rod| rod.mass_properties(1.0)));
+//! assert_eq!(whole.unwrap().mass, 3.0);
+//! # Ok::<(), tumble_shape::ShapeError>(())
+//! ```
 
 pub mod error;
 pub mod mass;

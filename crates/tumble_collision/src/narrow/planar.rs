@@ -1,7 +1,7 @@
 //! Contact points of two shapes of the plane.
 //!
 //! Every shape but the half-plane is a core (point, segment or polygon) grown by a radius, so the pairs reduce to two:
-//! half-plane and core ([`half_plane`]), core and core ([`convex`]).
+//! half-plane and core (`half_plane.rs`), core and core (`convex.rs`).
 //!
 //! # How two cores meet
 //!

@@ -75,7 +75,8 @@ pub(super) fn collide(a: &Core, b: &Core, origin: DVec2, query: &PlanarQuery) ->
 struct Candidates {
     /// The one with the largest separation; of almost equal ones a's.
     best: Option<Axis>,
-    /// Those with a separation within ± the flush tolerance.
+    /// Those with a separation within ± the flush tolerance. Shapes larger than the tolerance have at most two each, so that eight
+    /// are plenty; more are left out.
     flush: [Option<Axis>; 8],
 }
 
