@@ -18,6 +18,7 @@
 //! assert!(mistakes.to_string().contains("did you mean `density`?"));
 //! ```
 
+mod build;
 pub mod diagnostics;
 pub mod expand;
 pub mod format;
@@ -30,6 +31,7 @@ mod text;
 mod validate;
 mod write;
 
+pub use build::{BuildError, FromScene};
 pub use load::{Loaded, load_table};
 pub use path::ScenePath;
 pub use schema::schema;

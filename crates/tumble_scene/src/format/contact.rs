@@ -50,18 +50,25 @@ pub struct PenaltyEntry {
     /// How overlap becomes force. Default SpringDamper.
     #[serde(default)]
     pub law: PenaltyLaw,
-    /// Normal force per overlap [N/m]. Default such that dt is a tenth of the largest stable one.
+    /// Normal force per overlap [N/m]. Default such that dt is a tenth of the largest stable one; 1000 for the Lecture law.
     #[serde(default)]
     pub stiffness: Option<f64>,
     /// Normal force per approach speed [N·s/m]. Default what gives the restitution of the pair of materials.
     #[serde(default)]
     pub damping: Option<f64>,
-    /// Slip below which friction grows in proportion, instead of being constant [m/s]. Default 0.001 length scales per second.
+    /// Slip below which friction grows in proportion, instead of being constant [m/s]. Default 0.01 length scales per second.
     #[serde(default)]
     pub slip_speed: Option<f64>,
     /// Tangential force per slip in the Lecture law, which has no Coulomb friction [N·s/m]. Default 1.
     #[serde(default)]
     pub viscosity: Option<f64>,
+}
+
+impl PenaltyEntry {
+    /// Default stiffness of the Lecture law [N/m].
+    pub(crate) const LECTURE_STIFFNESS: f64 = 1000.0;
+    /// Default viscosity of the Lecture law [N·s/m].
+    pub(crate) const LECTURE_VISCOSITY: f64 = 1.0;
 }
 
 /// How overlap becomes force.

@@ -1,0 +1,354 @@
+//! From a scene to a simulation.
+
+use std::collections::BTreeMap;
+
+use bevy_ecs::name::Name;
+use bevy_ecs::prelude::Entity;
+use glam::DVec2;
+use thiserror::Error;
+use tumble_math::{Planar, PlanarRotation};
+use tumble_shape::ShapeError;
+use tumble_sim::{
+    Amount, Anchor, AppliedForce, BodyId, CentreOverride, Course, GravityScale, IgnoredPairs, ImpulseSettings,
+    InertiaOverride, Keyframe, Keyframes, LinearDrag, LinearVelocity, Lock, LockedAxes, MassOverride, MaterialId,
+    Orientation, Part, PenaltySettings, Pinned, Position, QuadraticDrag, Response, Settings, Simulation, Spring,
+    SpringDamperSettings, StepError,
+};
+use tumble_solver::Surface;
+
+use crate::diagnostics::Diagnostics;
+use crate::expand::ExpandedBody;
+use crate::format::{AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Groups, Scene, SpringEntry};
+use crate::format::{ContactModel, ImpulseEntry, Integrator, PenaltyEntry, PenaltyLaw};
+use crate::load::Loaded;
+use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
+use crate::shapes::planar_shape;
+
+/// Why a scene cannot become a simulation.
+#[derive(Debug, Error)]
+pub enum BuildError {
+    /// The scene has mistakes.
+    #[error("{0}")]
+    Scene(Diagnostics),
+    /// A part has no proper shape.
+    #[error("a part of body \"{body}\": {source}")]
+    Shape {
+        /// The body.
+        body: String,
+        /// What is wrong.
+        source: ShapeError,
+    },
+    /// A spring or a force is about a body that is not there.
+    #[error("no body is named \"{0}\"")]
+    UnknownBody(String),
+    /// A body cannot be simulated.
+    #[error(transparent)]
+    Step(#[from] StepError),
+}
+
+/// A simulation out of a scene.
+pub trait FromScene: Sized {
+    /// Builds a scene that was loaded, with its material tables.
+    ///
+    /// # Errors
+    ///
+    /// When a body cannot be simulated; validation has found everything else before.
+    fn from_loaded(loaded: &Loaded) -> Result<Self, BuildError> {
+        Self::with_materials(&loaded.scene, &loaded.materials)
+    }
+
+    /// Builds a scene made in code, after checking it.
+    ///
+    /// # Errors
+    ///
+    /// When the scene has mistakes.
+    fn from_scene(scene: &Scene) -> Result<Self, BuildError> {
+        let materials = MaterialLibrary::of_scene(scene);
+        scene.check(&materials).map_err(BuildError::Scene)?;
+        Self::with_materials(scene, &materials)
+    }
+
+    /// Builds a scene whose materials are looked up in a library.
+    ///
+    /// # Errors
+    ///
+    /// When a body cannot be simulated.
+    fn with_materials(scene: &Scene, materials: &MaterialLibrary) -> Result<Self, BuildError>;
+}
+
+impl FromScene for Simulation<Planar> {
+    fn with_materials(scene: &Scene, materials: &MaterialLibrary) -> Result<Self, BuildError> {
+        let bodies = scene.expand();
+        let mut simulation = Self::new(settings(scene));
+        let ids = add_materials(&mut simulation, &bodies, materials);
+        let groups = GroupBits::of(&bodies);
+        for (id, body) in bodies.iter().enumerate() {
+            add_body(&mut simulation, BodyId(id as u64), &body.body, &ids, &groups)?;
+        }
+        ignore_pairs(&mut simulation, &bodies);
+        // Springs and forces hold on to centres of mass, which exist once the bodies are prepared.
+        simulation.prepare()?;
+        for spring in &scene.springs {
+            add_spring(&mut simulation, spring)?;
+        }
+        for force in &scene.forces {
+            add_force(&mut simulation, force)?;
+        }
+        simulation.prepare()?;
+        Ok(simulation)
+    }
+}
+
+fn settings(scene: &Scene) -> Settings {
+    Settings {
+        dt: scene.dt,
+        gravity: scene.gravity,
+        length_scale: scene.length_scale,
+        slop: scene.slop,
+        integrator: match scene.integrator {
+            Integrator::SymplecticEuler => tumble_sim::Integrator::SymplecticEuler,
+            Integrator::Ballistic => tumble_sim::Integrator::Ballistic,
+        },
+        contact: match scene.contact {
+            ContactModel::Penalty => tumble_sim::ContactModel::Penalty,
+            ContactModel::Impulse => tumble_sim::ContactModel::Impulse,
+        },
+        penalty: penalty_settings(&scene.models.penalty, scene.length_scale),
+        impulse: impulse_settings(&scene.models.impulse, scene.length_scale),
+        ..Settings::default()
+    }
+}
+
+fn penalty_settings(entry: &PenaltyEntry, length_scale: f64) -> PenaltySettings {
+    let law = match entry.law {
+        PenaltyLaw::SpringDamper => tumble_sim::PenaltyLaw::SpringDamper(SpringDamperSettings {
+            stiffness: entry.stiffness,
+            damping: entry.damping,
+            slip_speed: entry.slip_speed.unwrap_or(SpringDamperSettings::default().slip_speed * length_scale),
+        }),
+        PenaltyLaw::Lecture => tumble_sim::PenaltyLaw::Lecture {
+            stiffness: entry.stiffness.unwrap_or(PenaltyEntry::LECTURE_STIFFNESS),
+            viscosity: entry.viscosity.unwrap_or(PenaltyEntry::LECTURE_VISCOSITY),
+        },
+    };
+    PenaltySettings { law }
+}
+
+fn impulse_settings(entry: &ImpulseEntry, length_scale: f64) -> ImpulseSettings {
+    let default = ImpulseSettings::default();
+    ImpulseSettings {
+        iterations: entry.iterations.unwrap_or(default.iterations),
+        colliding_above: entry.colliding_tolerance.map_or(default.colliding_above, |speed| speed / length_scale),
+        impulses_per_contact: entry.max_impulses.unwrap_or(default.impulses_per_contact),
+        ..default
+    }
+}
+
+/// Enters the surfaces of all pairs of materials that occur; returns the id of each name.
+fn add_materials(
+    simulation: &mut Simulation,
+    bodies: &[ExpandedBody],
+    library: &MaterialLibrary,
+) -> BTreeMap<String, MaterialId> {
+    let mut used = BTreeMap::from([(DEFAULT_MATERIAL.to_owned(), MaterialId::default())]);
+    for part in bodies.iter().flat_map(|body| body.body.parts.iter().map(move |part| (part, &body.body))) {
+        used.entry(material_of(part.0, part.1).to_owned()).or_default();
+    }
+    let surface = |a: &str, b: &str| {
+        let properties = library.pair(a, b).properties;
+        Surface {
+            static_friction: properties.static_friction,
+            kinetic_friction: properties.kinetic_friction,
+            restitution: properties.restitution,
+        }
+    };
+    let mut materials = simulation.materials_mut();
+    for (name, id) in &mut used {
+        *id = materials.set(name, surface(name, name));
+    }
+    for (a, id_a) in &used {
+        for (b, id_b) in used.range::<String, _>((std::ops::Bound::Excluded(a), std::ops::Bound::Unbounded)) {
+            materials.set_pair(*id_a, *id_b, surface(a, b));
+        }
+    }
+    used
+}
+
+fn material_of<'a>(part: &'a crate::format::Part, body: &'a BodyEntry) -> &'a str {
+    part.material().or(body.material.as_deref()).unwrap_or(DEFAULT_MATERIAL)
+}
+
+/// Bits of the groups that a scene names, in alphabetical order.
+struct GroupBits<'a>(Vec<&'a str>);
+
+impl<'a> GroupBits<'a> {
+    fn of(bodies: &'a [ExpandedBody]) -> Self {
+        let mut names = Vec::new();
+        let mut add = |groups: Option<&'a Groups>| {
+            if let Some(Groups::Names(list)) = groups {
+                names.extend(list.iter().map(String::as_str));
+            }
+        };
+        for body in bodies {
+            add(Some(&body.body.groups));
+            add(Some(&body.body.collides_with));
+            for part in &body.body.parts {
+                let (groups, collides_with) = part.groups();
+                add(groups);
+                add(collides_with);
+            }
+        }
+        names.sort_unstable();
+        names.dedup();
+        Self(names)
+    }
+
+    fn bits(&self, groups: &Groups) -> u32 {
+        match groups {
+            Groups::Bits(bits) => *bits,
+            Groups::Names(list) => {
+                let bit = |name: &String| self.0.iter().position(|known| known == name).map_or(0, |place| 1 << place);
+                list.iter().map(bit).fold(0, std::ops::BitOr::bitor)
+            }
+        }
+    }
+}
+
+fn add_body(
+    simulation: &mut Simulation,
+    id: BodyId,
+    body: &BodyEntry,
+    materials: &BTreeMap<String, MaterialId>,
+    groups: &GroupBits,
+) -> Result<(), BuildError> {
+    let entity = simulation.spawn((
+        Name::new(body.name.clone()),
+        id,
+        match body.kind {
+            BodyKind::Dynamic => tumble_sim::BodyKind::Dynamic,
+            BodyKind::Kinematic => tumble_sim::BodyKind::Kinematic,
+            BodyKind::Static => tumble_sim::BodyKind::Static,
+        },
+        Position(body.at),
+        Orientation(PlanarRotation::from_degrees(body.angle_degrees)),
+        LinearVelocity(body.velocity),
+        tumble_sim::AngularVelocity(body.angular_velocity),
+    ));
+    add_options(simulation, entity, body);
+    for part in &body.parts {
+        let shape = planar_shape(part).map_err(|source| BuildError::Shape { body: body.name.clone(), source })?;
+        let Some(shape) = shape else { continue };
+        let amount = match part.density_and_mass() {
+            (_, Some(mass)) => Amount::Mass(mass),
+            (density, None) => Amount::Density(density.unwrap_or(1.0)),
+        };
+        let (member_of, accepts) = part.groups();
+        let groups = tumble_sim::Groups {
+            member_of: groups.bits(member_of.unwrap_or(&body.groups)),
+            accepts: groups.bits(accepts.unwrap_or(&body.collides_with)),
+        };
+        let response = if part.is_sensor() { Response::Sensor } else { Response::Solid };
+        let material = materials.get(material_of(part, body)).copied().unwrap_or_default();
+        simulation.attach(entity, Part::new(shape, amount).material(material).groups(groups).response(response));
+    }
+    Ok(())
+}
+
+/// Adds the components that only some bodies have.
+fn add_options(simulation: &mut Simulation, entity: Entity, body: &BodyEntry) {
+    let mut entity = simulation.world_mut().entity_mut(entity);
+    if let Some(mass) = body.mass {
+        entity.insert(MassOverride(mass));
+    }
+    if let Some(centre) = body.centre {
+        entity.insert(CentreOverride(centre));
+    }
+    if let Some(inertia) = body.inertia {
+        entity.insert(InertiaOverride(inertia));
+    }
+    if body.gravity_scale != 1.0 {
+        entity.insert(GravityScale(body.gravity_scale));
+    }
+    if body.drag.linear != 0.0 {
+        entity.insert(LinearDrag { translation: body.drag.linear, rotation: 0.0 });
+    }
+    if body.drag.quadratic != 0.0 {
+        entity.insert(QuadraticDrag { translation: body.drag.quadratic, rotation: 0.0 });
+    }
+    if body.pinned {
+        entity.insert(Pinned);
+    }
+    if !body.locked.is_empty() {
+        let locked = |axis: Axis| body.locked.contains(&axis);
+        let along = |axis: Axis| if locked(axis) { 1.0 } else { 0.0 };
+        let rotation = if locked(Axis::Angle) { Lock::Locked } else { Lock::Free };
+        entity.insert(LockedAxes { translation: DVec2::new(along(Axis::X), along(Axis::Y)), rotation });
+    }
+    if !body.keyframes.is_empty() {
+        let centre = body.centre.unwrap_or(DVec2::ZERO);
+        let frames = body.keyframes.iter().map(|frame| {
+            let rotation = PlanarRotation::from_degrees(frame.angle_degrees);
+            let position = frame.at + tumble_math::Rotation::rotate(&rotation, centre);
+            Keyframe { time: frame.time, position, angle: rotation.angle() }
+        });
+        entity.insert(Keyframes(frames.collect()));
+    }
+}
+
+fn ignore_pairs(simulation: &mut Simulation, bodies: &[ExpandedBody]) {
+    let id = |name: &str| bodies.binary_search_by(|body| body.body.name.as_str().cmp(name)).ok();
+    let pairs = bodies.iter().enumerate().flat_map(|(one, body)| {
+        body.body.ignores.iter().filter_map(move |name| Some((BodyId(one as u64), BodyId(id(name)? as u64))))
+    });
+    let pairs: Vec<_> = pairs.collect();
+    let mut ignored = simulation.world_mut().resource_mut::<IgnoredPairs>();
+    for (one, other) in pairs {
+        ignored.insert(one, other);
+    }
+}
+
+fn add_spring(simulation: &mut Simulation, entry: &SpringEntry) -> Result<(), BuildError> {
+    let (a, from) = anchor(simulation, &entry.from)?;
+    let (b, to) = anchor(simulation, &entry.to)?;
+    simulation.spawn(Spring {
+        a,
+        b,
+        stiffness: entry.stiffness,
+        damping: entry.damping,
+        rest_length: entry.rest_length.unwrap_or_else(|| from.distance(to)),
+    });
+    Ok(())
+}
+
+/// The anchor, and where it is at the start in world axes [m].
+fn anchor(simulation: &Simulation, entry: &AnchorEntry) -> Result<(Anchor<DVec2>, DVec2), BuildError> {
+    match entry {
+        AnchorEntry::World { point } => Ok((Anchor::World(*point), *point)),
+        AnchorEntry::Body { name, point } => {
+            let body = simulation.body(name).map_err(|unknown| BuildError::UnknownBody(unknown.0))?;
+            let point = point.map_or(DVec2::ZERO, |point| body.from_part_frame(point));
+            Ok((Anchor::Body(body.entity(), point), body.point(point)))
+        }
+    }
+}
+
+fn add_force(simulation: &mut Simulation, entry: &ForceEntry) -> Result<(), BuildError> {
+    let body = simulation.body(&entry.on).map_err(|unknown| BuildError::UnknownBody(unknown.0))?;
+    let force = AppliedForce::<Planar> {
+        body: body.entity(),
+        point: entry.point.map_or(DVec2::ZERO, |point| body.from_part_frame(point)),
+        force: entry.force,
+        torque: entry.torque,
+        axes: match entry.axes {
+            Axes::World => tumble_sim::Axes::World,
+            Axes::Body => tumble_sim::Axes::Body,
+        },
+        course: Course {
+            from: entry.from,
+            until: entry.until.unwrap_or(f64::INFINITY),
+            factor: entry.factor.clone(),
+        },
+    };
+    simulation.spawn(force);
+    Ok(())
+}
