@@ -17,7 +17,7 @@ pub enum Family {
     NonsymmetricDefinite,
     /// Negative off the diagonal and dominant on it: unique.
     MMatrix,
-    /// Triangular with large entries: a P-matrix that is not semidefinite; unique.
+    /// Positive definite with its rows scaled by 1/50 to 1: a P-matrix that is not semidefinite; unique.
     PMatrix,
     /// Positive entries: strictly copositive, so a solution exists; often several.
     Copositive,
@@ -79,11 +79,14 @@ impl Family {
                 }
                 m
             }
-            Self::PMatrix => Matrix::from_fn(n, n, |i, j| match i.cmp(&j) {
-                std::cmp::Ordering::Less => 3.0 * random.unit(),
-                std::cmp::Ordering::Equal => 0.5 + random.unit(),
-                std::cmp::Ordering::Greater => 0.0,
-            }),
+            Self::PMatrix => {
+                let mut m = gram(&gaussian_like(&mut random, n), 0.1);
+                for i in 0..n {
+                    let factor = 0.02 / (0.02 + random.unit());
+                    m.row_mut(i).iter_mut().for_each(|m| *m *= factor);
+                }
+                m
+            }
             Self::Copositive => Matrix::from_fn(n, n, |_, _| 0.05 + random.unit()),
             Self::Infeasible => return infeasible(n, &mut random),
             Self::Contact => return pile(n.div_ceil(3), Friction::Absent, &mut random),
@@ -152,7 +155,7 @@ fn pile(boxes: usize, friction: Friction, random: &mut Random) -> Sample {
         velocities.extend([0.3 * random.signed(), -0.1 - 0.1 * random.unit(), 0.05 * random.signed()]);
         for x in [-1.0, 0.0, 1.0] {
             // Velocity of the lower face of this box less that of the upper face of the one below.
-            let (above, below) = (3 * level, 3 * level.wrapping_sub(1));
+            let (above, below) = (3 * level, 3 * level.saturating_sub(1));
             let mut normal = vec![(above + 1, 1.0), (above + 2, x)];
             let mut tangent = vec![(above, 1.0), (above + 2, 1.0)];
             if level > 0 {

@@ -20,7 +20,7 @@
 use crate::active_set::polish;
 use crate::factor::Lu;
 use crate::matrix::largest;
-use crate::outcome::{Method, Solution, SolveError, judge};
+use crate::outcome::{Method, Solution, SolveError, judge, relative_bar};
 use crate::problem::Lcp;
 
 /// Settings of the interior-point method.
@@ -65,7 +65,7 @@ impl InteriorPoint {
             let nearly = ratio <= 1e-7;
             if nearly || iteration == self.max_iterations {
                 let finished = polish(problem, best.clone());
-                let bar = self.tolerance * problem.scale(&finished);
+                let bar = relative_bar(problem, &finished, self.tolerance);
                 let end = judge(problem, finished, method, iteration, bar);
                 if end.is_ok() || iteration == self.max_iterations {
                     return end;
@@ -73,11 +73,11 @@ impl InteriorPoint {
             }
             if !point.advance(problem, &limits) {
                 let finished = polish(problem, best);
-                let bar = self.tolerance * problem.scale(&finished);
+                let bar = relative_bar(problem, &finished, self.tolerance);
                 return judge(problem, finished, method, iteration, bar);
             }
         }
-        let bar = self.tolerance * problem.scale(&best);
+        let bar = relative_bar(problem, &best, self.tolerance);
         judge(problem, best, method, self.max_iterations, bar)
     }
 }
@@ -120,7 +120,16 @@ impl Point {
             // A slack of infinity divides to zero.
             matrix[(i, i)] += self.s[i] / a[i] + self.t[i] / b[i];
         }
+        // Near the end the diagonal spans twenty orders of magnitude; in units of its roots the pivots do not.
+        let root: Vec<f64> = (0..n).map(|i| matrix[(i, i)]).map(|d| if d > 0.0 { d.sqrt() } else { 1.0 }).collect();
+        for i in 0..n {
+            matrix.row_mut(i).iter_mut().zip(&root).for_each(|(m, r)| *m /= root[i] * r);
+        }
         let Some(lu) = Lu::factor(matrix) else { return false };
+        let solve = |right: Vec<f64>| -> Vec<f64> {
+            let scaled: Vec<f64> = right.iter().zip(&root).map(|(x, r)| x / r).collect();
+            lu.solve(&scaled).iter().zip(&root).map(|(x, r)| x / r).collect()
+        };
         // Directions for given targets of the products a s and b t.
         let directions = |of_a: &dyn Fn(usize) -> f64, of_b: &dyn Fn(usize) -> f64| {
             let right: Vec<f64> = (0..n)
@@ -132,7 +141,7 @@ impl Point {
                     -w[i] + lower - upper
                 })
                 .collect();
-            let dz = lu.solve(&right);
+            let dz = solve(right);
             let (mut ds, mut dt) = (vec![0.0; n], vec![0.0; n]);
             for i in 0..n {
                 if self.s[i] > 0.0 {
@@ -165,11 +174,28 @@ impl Point {
                     + product(b[i] - step * dz[i], self.t[i] + step * dt[i])
             })
             .sum();
-        let fraction = if gap > 0.0 { (ahead / gap).clamp(0.0, 1.0) } else { 0.0 };
+        let fraction = if gap > 0.0 { (ahead / gap).clamp(0.01, 1.0) } else { 0.0 };
         let centring = fraction * fraction * fraction * mu;
-        let corrected = directions(&|i| centring - dz[i] * ds[i], &|i| centring + dz[i] * dt[i]);
-        let step = (0.995 * longest(&corrected)).min(1.0);
+        // The correction assumes a full step; where the predictor could not take one, take less of it (Colombo and Gondzio 2008).
+        let weight = step * step;
+        let corrected = directions(&|i| centring - weight * dz[i] * ds[i], &|i| centring + weight * dz[i] * dt[i]);
         let (dz, ds, dt) = &corrected;
+        // Stay near the path: no product may fall far behind their mean, or later steps are short.
+        let is_central = |step: f64| {
+            let products: Vec<f64> = (0..n)
+                .flat_map(|i| {
+                    let lower = (self.s[i] > 0.0).then(|| (a[i] + step * dz[i]) * (self.s[i] + step * ds[i]));
+                    let upper = (self.t[i] > 0.0).then(|| (b[i] - step * dz[i]) * (self.t[i] + step * dt[i]));
+                    lower.into_iter().chain(upper)
+                })
+                .collect();
+            let mean = products.iter().sum::<f64>() / products.len().max(1) as f64;
+            products.iter().all(|&product| product >= 1e-3 * mean)
+        };
+        let mut step = (0.995 * longest(&corrected)).min(1.0);
+        while step > 1e-10 && !is_central(step) {
+            step *= 0.8;
+        }
         if !(largest(dz).is_finite() && step > 1e-10) {
             return false;
         }

@@ -17,10 +17,11 @@
 //! **When to choose.** Up to a few hundred rows, when M is not symmetric, or when certainty is wanted.
 
 use crate::active_set::polish;
-use crate::factor::UpdatedInverse;
+use crate::factor::{Definiteness, UpdatedInverse, definiteness};
 use crate::matrix::{Matrix, dot, largest};
 use crate::outcome::{Method, Report, Solution, SolveError, judge_pivoting};
 use crate::problem::Lcp;
+use crate::proximal::proximal;
 use crate::standard::{Standard, equilibrate};
 
 /// The vector d that covers negative q.
@@ -65,6 +66,28 @@ impl Lemke {
         if z.len() != problem.dimension() || z.iter().any(|z| !z.is_finite()) {
             return Err(SolveError::NotFinite);
         }
+        // The guarantees of the path hold from z = 0; from elsewhere it may meet a ray where there is a solution.
+        let cold = vec![0.0; z.len()];
+        let run = |problem: &Lcp, z: &[f64]| match self.run(problem, z) {
+            Err(
+                SolveError::SecondaryRay { .. } | SolveError::SingularPivot { .. } | SolveError::NotConverged { .. },
+            ) if z != cold => self.run(problem, &cold),
+            end => end,
+        };
+        match run(problem, z) {
+            // Pivots lost in rounding: the same on M made regular, as long as that is what M is near.
+            Err(
+                error @ (SolveError::SingularPivot { .. }
+                | SolveError::SecondaryRay { .. }
+                | SolveError::NotConverged { .. }),
+            ) if problem.has_friction() || definiteness(problem.matrix()) != Definiteness::Indefinite => {
+                proximal(problem, run).map_err(|_| error)
+            }
+            end => end,
+        }
+    }
+
+    fn run(&self, problem: &Lcp, z: &[f64]) -> Result<Solution, SolveError> {
         let standard = Standard::of(problem);
         let (mut matrix, mut q) = (standard.matrix.clone(), standard.q.clone());
         let units = match self.scaling {
@@ -83,6 +106,14 @@ impl Lemke {
         match end {
             PathEnd::Solution => judge_pivoting(problem, polish(problem, recover(&x)), Method::Lemke, pivots),
             PathEnd::Ray(ray) => {
+                // z₀ may be zero already, tied with the row that opened the ray.
+                let here = recover(&x);
+                if problem.residual(&here) <= 1e-9 * problem.scale(&here) {
+                    let here = judge_pivoting(problem, polish(problem, here), Method::Lemke, pivots);
+                    if here.is_ok() {
+                        return here;
+                    }
+                }
                 let ray = in_units(&ray, &units);
                 // On a copositive-plus problem the ray itself is a Farkas vector; otherwise a linear program may find one.
                 let from_ray = [standard.recover_certificate(problem, &ray)];
@@ -263,7 +294,14 @@ impl<'a> Path<'a> {
         // The first step makes z₀ just large enough: the same ratio test with all denominators positive.
         let mut image: Vec<f64> = d;
         loop {
-            let Some(row) = self.leaving_row(&image) else { return PathEnd::Ray(self.ray(entering, &image)) };
+            let mut leaving_row = self.leaving_row(&image);
+            // A ray, or a pivot much smaller than its column, may be rounding: look again with a fresh inverse.
+            let doubtful = leaving_row.is_none_or(|row| image[row] < 1e-5 * largest(&image));
+            if doubtful && entering != Variable::Artificial && self.inverse.updates() > 0 && self.rebuild() {
+                image = self.image(entering);
+                leaving_row = self.leaving_row(&image);
+            }
+            let Some(row) = leaving_row else { return PathEnd::Ray(self.ray(entering, &image)) };
             if entering == Variable::Artificial {
                 image.iter_mut().for_each(|a| *a = -*a);
             }
@@ -287,7 +325,7 @@ impl<'a> Path<'a> {
 
     /// The row that the ratio test picks, z₀ first among ties and the lexicographic order after it.
     fn leaving_row(&self, image: &[f64]) -> Option<usize> {
-        let threshold = 1e-11 * largest(image);
+        let threshold = 1e-10 * largest(image);
         let mut best: Option<usize> = None;
         for i in (0..image.len()).filter(|&i| image[i] > threshold) {
             best = match best {
@@ -308,9 +346,12 @@ impl<'a> Path<'a> {
         if self.basis[i] == Variable::Artificial || self.basis[j] == Variable::Artificial {
             return self.basis[i] == Variable::Artificial;
         }
-        for (a, b) in self.inverse.row(i).iter().zip(self.inverse.row(j)) {
+        let (row, other) = (self.inverse.row(i), self.inverse.row(j));
+        // Entries that ought to be zero are as large as rounding in the largest of their row.
+        let noise = 1e-13 * (largest(row) / image[i] + largest(other) / image[j]);
+        for (a, b) in row.iter().zip(other) {
             let (a, b) = (a / image[i], b / image[j]);
-            if differs(a, b) {
+            if differs(a, b) && (a - b).abs() > noise {
                 return a < b;
             }
         }

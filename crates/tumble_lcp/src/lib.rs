@@ -59,6 +59,7 @@ mod outcome;
 pub mod principal;
 mod problem;
 pub mod projected_gradient;
+mod proximal;
 mod solve;
 mod standard;
 
@@ -70,7 +71,7 @@ pub use matrix::Matrix;
 pub use newton::Newton;
 pub use operator::{Operator, RowOperator, WeightedGram};
 pub use outcome::{Method, PIVOTING_TOLERANCE, Report, Solution, SolveError};
-pub use principal::PrincipalPivoting;
+pub use principal::{Indeterminate, PrincipalPivoting};
 pub use problem::{Bound, Lcp, ProblemError};
 pub use projected_gradient::ProjectedGradient;
 pub use solve::{Definiteness, MatrixClass, Solved, solve, solve_from};

@@ -17,7 +17,7 @@
 use crate::active_set::polish;
 use crate::factor::Lu;
 use crate::matrix::{Matrix, add_scaled, dot, largest};
-use crate::outcome::{Method, Solution, SolveError, judge};
+use crate::outcome::{Method, Solution, SolveError, judge, relative_bar};
 use crate::problem::{Bound, Lcp};
 
 /// Settings of Newton's method.
@@ -55,7 +55,7 @@ impl Newton {
             }
             // Sides settle long before the last digits do, so try to finish by one linear system. It costs as much as a step.
             let finished = polish(problem, z.clone());
-            let bar = self.tolerance * problem.scale(&finished);
+            let bar = relative_bar(problem, &finished, self.tolerance);
             if problem.residual(&finished) <= bar || steps >= self.max_steps {
                 return judge(problem, finished, Method::Newton, steps, bar);
             }
@@ -144,11 +144,17 @@ fn line_search(problem: &Lcp, z: &[f64], point: &Point) -> Option<(Vec<f64>, Poi
     let jacobian = point.jacobian(problem);
     let gradient = jacobian.transpose_multiply(&point.phi);
     let opposite = |x: &[f64]| x.iter().map(|x| -x).collect::<Vec<f64>>();
-    let newton = Lu::factor(jacobian).map(|lu| lu.solve(&opposite(&point.phi)));
+    let right = opposite(&point.phi);
+    // A little of the identity in M helps where solutions are not isolated: the step of a proximal point method.
+    let epsilon = 1e-8 * largest(problem.matrix().entries());
+    let mut regular = jacobian.clone();
+    (0..z.len()).for_each(|i| regular[(i, i)] += epsilon * point.by_w[i]);
+    let newton = Lu::factor(jacobian).map(|lu| lu.solve(&right));
+    let proximal = Lu::factor(regular).map(|lu| lu.solve(&right));
     // A gradient of the merit has its units squared; this step has the right ones.
     let squared = dot(&gradient, &gradient);
     let descent = (squared > 0.0).then(|| gradient.iter().map(|g| -g * (2.0 * point.merit / squared)).collect());
-    for direction in [newton, descent].into_iter().flatten() {
+    for direction in [newton, proximal, descent].into_iter().flatten() {
         let slope = dot(&gradient, &direction);
         if !(slope < 0.0 && largest(&direction).is_finite()) {
             continue;

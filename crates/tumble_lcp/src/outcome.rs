@@ -1,6 +1,6 @@
 //! What solvers return: a solution with its report, or a reason.
 
-use crate::matrix::Matrix;
+use crate::matrix::{Matrix, largest};
 use crate::operator::Operator;
 use crate::problem::{Lcp, residual_with};
 
@@ -21,8 +21,12 @@ pub enum Method {
     ProjectedGradient,
     /// [`InteriorPoint`](crate::InteriorPoint).
     InteriorPoint,
-    /// [`enumerate`](crate::enumerate).
+    /// [`enumerate`](crate::enumerate()).
     Enumeration,
+    /// [`BlockGaussSeidel`](crate::cone::BlockGaussSeidel).
+    BlockGaussSeidel,
+    /// [`ConeNewton`](crate::cone::ConeNewton).
+    ConeNewton,
 }
 
 /// How a solver ended.
@@ -104,6 +108,8 @@ pub enum SolveError {
 }
 
 /// The bar for pivoting methods: residual ≤ this · max(1, ‖q‖∞, ‖M‖∞ ‖z‖∞). A few thousand roundings.
+///
+/// Nor may it exceed 1e-6 ‖q‖∞: where there is no solution, z runs off to infinity and would take the bar along.
 pub const PIVOTING_TOLERANCE: f64 = 1e-12;
 
 /// Accepts z if its residual is within `tolerance` · scale, and says what it is otherwise.
@@ -132,6 +138,16 @@ pub(crate) fn judge_pivoting(
     method: Method,
     pivots: usize,
 ) -> Result<Solution, SolveError> {
-    let bar = PIVOTING_TOLERANCE * problem.scale(&z);
+    let bar = pivoting_bar(problem, &z);
     judge(problem, z, method, pivots, bar)
+}
+
+/// The largest residual a pivoting method may return with z.
+pub(crate) fn pivoting_bar(problem: &Lcp<Matrix>, z: &[f64]) -> f64 {
+    relative_bar(problem, z, PIVOTING_TOLERANCE)
+}
+
+/// The largest residual accepted with z at a given tolerance.
+pub(crate) fn relative_bar(problem: &Lcp<Matrix>, z: &[f64], tolerance: f64) -> f64 {
+    (tolerance * problem.scale(z)).min(1e-6 * largest(problem.q()))
 }

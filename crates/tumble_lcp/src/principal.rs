@@ -26,10 +26,23 @@ use crate::factor::{SingularUpdate, UpdatedInverse};
 use crate::matrix::{Matrix, add_scaled, dot, largest};
 use crate::outcome::{Method, Report, Solution, SolveError, judge_pivoting};
 use crate::problem::{Bound, Lcp, natural_map_entry};
+use crate::proximal::proximal;
+
+/// Which solution to take when there are many, as with a table on four legs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Indeterminate {
+    /// The one that pivoting meets first: few rows push. Quickest.
+    #[default]
+    Vertex,
+    /// The one of least norm, to about 1e-6: equal legs push equally, whatever their order.
+    LeastNorm,
+}
 
 /// Settings of principal pivoting.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PrincipalPivoting {
+    /// What to do where solutions are not unique. Default: the first one met.
+    pub indeterminate: Indeterminate,
     /// Pivots after which the method gives up. Default: 1000 + 50 n.
     pub max_pivots: Option<usize>,
 }
@@ -37,7 +50,7 @@ pub struct PrincipalPivoting {
 impl PrincipalPivoting {
     /// Solves from z = 0.
     pub fn solve(&self, problem: &Lcp) -> Result<Solution, SolveError> {
-        self.finish(problem, Run::cold(problem))
+        self.choose(problem, None)
     }
 
     /// Solves, starting from the sides on which `z` stands: no pivots at all when they are right.
@@ -45,7 +58,33 @@ impl PrincipalPivoting {
         if z.len() != problem.dimension() || z.iter().any(|z| !z.is_finite()) {
             return Err(SolveError::NotFinite);
         }
-        self.finish(problem, Run::warm(problem, z).unwrap_or_else(|| Run::cold(problem)))
+        self.choose(problem, Some(z))
+    }
+
+    /// Pivots on M itself; where that meets pivots lost in rounding, or on request, on M made regular.
+    fn choose(&self, problem: &Lcp, start: Option<&[f64]>) -> Result<Solution, SolveError> {
+        let run = |problem: &Lcp, start: Option<&[f64]>| {
+            let warm = start.and_then(|z| Run::warm(problem, z));
+            self.finish(problem, warm.unwrap_or_else(|| Run::cold(problem)))
+        };
+        let rounds = || {
+            let mut first = start;
+            proximal(problem, |regular, z| run(regular, Some(first.take().unwrap_or(z))))
+        };
+        if self.indeterminate == Indeterminate::LeastNorm
+            && let Ok(solution) = rounds()
+        {
+            return Ok(solution);
+        }
+        match run(problem, start) {
+            Err(
+                error @ (SolveError::SingularPivot { .. }
+                | SolveError::SecondaryRay { .. }
+                | SolveError::CyclingStopped { .. }
+                | SolveError::NotConverged { .. }),
+            ) if (0..problem.dimension()).all(|i| problem.matrix()[(i, i)] >= 0.0) => rounds().map_err(|_| error),
+            end => end,
+        }
     }
 
     fn finish(&self, problem: &Lcp, mut run: Run) -> Result<Solution, SolveError> {
