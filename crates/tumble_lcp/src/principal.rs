@@ -4,6 +4,8 @@
 //! before keep their complementarity: those with w = 0 answer with their z, those at a bound watch their w. Whichever would break
 //! first changes its side, and the push goes on.
 //!
+//! A few block pivots, which change all wrong rows at once, come first and often leave little to do.
+//!
 //! **Equations.** With C the rows that have w = 0 and d the row that is driven,
 //!
 //! ```text
@@ -50,7 +52,7 @@ pub struct PrincipalPivoting {
 impl PrincipalPivoting {
     /// Solves from z = 0.
     pub fn solve(&self, problem: &Lcp) -> Result<Solution, SolveError> {
-        self.choose(problem, None)
+        self.choose(problem, &vec![0.0; problem.dimension()])
     }
 
     /// Solves, starting from the sides on which `z` stands: no pivots at all when they are right.
@@ -58,18 +60,18 @@ impl PrincipalPivoting {
         if z.len() != problem.dimension() || z.iter().any(|z| !z.is_finite()) {
             return Err(SolveError::NotFinite);
         }
-        self.choose(problem, Some(z))
+        self.choose(problem, z)
     }
 
     /// Pivots on M itself; where that meets pivots lost in rounding, or on request, on M made regular.
-    fn choose(&self, problem: &Lcp, start: Option<&[f64]>) -> Result<Solution, SolveError> {
-        let run = |problem: &Lcp, start: Option<&[f64]>| {
-            let warm = start.and_then(|z| Run::warm(problem, z));
-            self.finish(problem, warm.unwrap_or_else(|| Run::cold(problem)))
+    fn choose(&self, problem: &Lcp, start: &[f64]) -> Result<Solution, SolveError> {
+        let run = |problem: &Lcp, start: &[f64]| match Run::warm(problem, start) {
+            Some(warm) => self.finish(problem, warm).or_else(|_| self.finish(problem, Run::cold(problem))),
+            None => self.finish(problem, Run::cold(problem)),
         };
         let rounds = || {
-            let mut first = start;
-            proximal(problem, |regular, z| run(regular, Some(first.take().unwrap_or(z))))
+            let mut first = Some(start);
+            proximal(problem, |regular, z| run(regular, first.take().unwrap_or(z)))
         };
         if self.indeterminate == Indeterminate::LeastNorm
             && let Ok(solution) = rounds()
@@ -189,14 +191,28 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The rows on the sides where `z` stands, less those that do not hold there; `None` when that leads nowhere.
+    /// Starts from the sides on which `z` stands, bettered by block pivots; `None` when that leads nowhere.
     fn warm(problem: &'a Lcp, z: &[f64]) -> Option<Self> {
         let mut start = z.to_vec();
         problem.clamp(&mut start);
         let mut sides = sides_of(problem, &start, &problem.w(&start));
-        let mut run = Self::cold(problem);
+        let mut solved = solve_sides(problem, &sides)?;
+        // All wrong rows change sides at once, as long as they become fewer (Júdice and Pires 1994).
+        let mut fewest = usize::MAX;
+        let mut block_pivots = 0;
+        loop {
+            let next = sides_of(problem, &solved, &problem.w(&solved));
+            let wrong = next.iter().zip(&sides).filter(|(a, b)| a != b).count();
+            if wrong >= fewest || wrong == 0 {
+                break;
+            }
+            fewest = wrong;
+            let Some(better) = solve_sides(problem, &next) else { break };
+            (sides, solved) = (next, better);
+            block_pivots += 1;
+        }
+        // What is left of them must at least be within its bounds.
         for _ in 0..5 {
-            let solved = solve_sides(problem, &sides)?;
             let slack = 1e-12 * largest(&solved);
             let mut fits = true;
             for i in 0..solved.len() {
@@ -207,24 +223,32 @@ impl<'a> Run<'a> {
                 }
             }
             if fits {
-                run.z = solved;
-                run.problem.clamp(&mut run.z);
-                run.w = problem.w(&run.z);
-                let noise = run.noise();
-                for (i, &side) in sides.iter().enumerate() {
-                    run.state[i] = match side {
-                        Side::Between => State::Active,
-                        Side::Lower if run.w[i] >= -noise => State::Lower,
-                        Side::Upper if run.w[i] <= noise => State::Upper,
-                        _ if matches!(problem.bounds()[i], Bound::Friction { .. }) => return None,
-                        _ => State::Waiting,
-                    };
-                }
-                run.active = (0..sides.len()).filter(|&i| run.state[i] == State::Active).collect();
-                return run.rebuild().is_ok().then_some(run);
+                return Self::at(problem, &sides, solved, block_pivots);
             }
+            solved = solve_sides(problem, &sides)?;
+            block_pivots += 1;
         }
         None
+    }
+
+    /// A run whose finished rows are those of `sides` that are in order at z.
+    fn at(problem: &'a Lcp, sides: &[Side], z: Vec<f64>, pivots: usize) -> Option<Self> {
+        let mut run = Self { pivots, ..Self::cold(problem) };
+        run.z = z;
+        problem.clamp(&mut run.z);
+        run.w = problem.w(&run.z);
+        let noise = run.noise();
+        for (i, &side) in sides.iter().enumerate() {
+            run.state[i] = match side {
+                Side::Between => State::Active,
+                Side::Lower if run.w[i] >= -noise => State::Lower,
+                Side::Upper if run.w[i] <= noise => State::Upper,
+                _ if matches!(problem.bounds()[i], Bound::Friction { .. }) => return None,
+                _ => State::Waiting,
+            };
+        }
+        run.active = (0..sides.len()).filter(|&i| run.state[i] == State::Active).collect();
+        run.rebuild().is_ok().then_some(run)
     }
 
     /// Below this a w is zero.

@@ -182,13 +182,14 @@ proptest! {
         let planar = problem.to_planar_lcp().unwrap();
         let polyhedral = problem.to_polyhedral_lcp(2).unwrap();
         let lemke = Lemke::default().solve(&polyhedral.problem).unwrap();
+        let swept = GaussSeidel { tolerance: 1e-13, ..GaussSeidel::default() }.solve(&planar).unwrap().z;
         let answers = [
             ConeNewton::default().solve(&problem).unwrap().impulses,
             polyhedral.impulses(&lemke),
             Lemke::default().solve(&planar).unwrap().z,
             PrincipalPivoting::default().solve(&planar).unwrap().z,
-            Newton::default().solve(&planar).unwrap().z,
-            GaussSeidel { tolerance: 1e-13, ..GaussSeidel::default() }.solve(&planar).unwrap().z,
+            Newton::default().solve_from(&planar, &swept).unwrap().z,
+            swept,
         ];
         for answer in &answers {
             // The bar of pivoting, 1e-12 of a scale below 100.
