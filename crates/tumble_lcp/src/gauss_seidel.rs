@@ -20,11 +20,11 @@ use crate::problem::{Bound, Lcp};
 /// Settings of projected Gauss–Seidel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GaussSeidel {
-    /// ω: 1 is Gauss–Seidel, above it over-relaxation, which is faster on easy problems and fails beyond 2 [1]. Default 1.
+    /// ω: 1 is Gauss–Seidel, above it over-relaxation, which is faster on easy problems and fails beyond 2 \[1\]. Default 1.
     pub relaxation: f64,
     /// Sweeps after which it gives up. Default 20 000.
     pub max_sweeps: usize,
-    /// Accepted residual, in units of max(1, ‖q‖∞) [1]. Default 1e-8.
+    /// Accepted residual, in units of max(1, ‖q‖∞) \[1\]. Default 1e-8.
     pub tolerance: f64,
 }
 

@@ -28,7 +28,7 @@ use crate::problem::Lcp;
 pub struct InteriorPoint {
     /// Iterations after which it gives up. Default 100.
     pub max_iterations: usize,
-    /// Accepted residual, in units of max(1, ‖q‖∞, ‖M‖∞ ‖z‖∞) [1]. Default 1e-9; isolated solutions come back at rounding.
+    /// Accepted residual, in units of max(1, ‖q‖∞, ‖M‖∞ ‖z‖∞) \[1\]. Default 1e-9; isolated solutions come back at rounding.
     pub tolerance: f64,
 }
 

@@ -25,7 +25,7 @@ use crate::problem::{Bound, Lcp};
 pub struct Newton {
     /// Steps after which it gives up. Default 200.
     pub max_steps: usize,
-    /// Accepted residual, in units of max(1, ‖q‖∞, ‖M‖∞ ‖z‖∞) [1]. Default 1e-12; what comes back is usually at rounding.
+    /// Accepted residual, in units of max(1, ‖q‖∞, ‖M‖∞ ‖z‖∞) \[1\]. Default 1e-12; what comes back is usually at rounding.
     pub tolerance: f64,
 }
 

@@ -22,7 +22,7 @@ pub enum Bound {
     Friction {
         /// The row whose z limits this one; it must be [`Bound::Nonnegative`].
         normal: usize,
-        /// μ ≥ 0 [1].
+        /// μ ≥ 0 \[1\].
         coefficient: f64,
     },
 }

@@ -23,7 +23,7 @@ use crate::problem::Lcp;
 pub struct ProjectedGradient {
     /// Products M z after which it gives up. Default 20 000.
     pub max_iterations: usize,
-    /// Accepted residual, in units of max(1, ‖q‖∞) [1]. Default 1e-8.
+    /// Accepted residual, in units of max(1, ‖q‖∞) \[1\]. Default 1e-8.
     pub tolerance: f64,
 }
 

@@ -21,7 +21,7 @@ use crate::outcome::{Method, SolveError};
 pub struct BlockGaussSeidel {
     /// Sweeps after which it gives up. Default 20 000.
     pub max_sweeps: usize,
-    /// Accepted residual, in units of max(1, ‖q‖∞) [1]. Default 1e-8.
+    /// Accepted residual, in units of max(1, ‖q‖∞) \[1\]. Default 1e-8.
     pub tolerance: f64,
 }
 

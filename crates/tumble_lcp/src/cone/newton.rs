@@ -32,7 +32,7 @@ pub struct ConeNewton {
     pub max_steps: usize,
     /// Gauss–Seidel sweeps where a Newton step does not help; doubled each time. Default 20.
     pub sweeps: usize,
-    /// Accepted residual, in units of max(1, ‖q‖∞, ‖W‖∞ ‖r‖∞) [1]. Default 1e-12.
+    /// Accepted residual, in units of max(1, ‖q‖∞, ‖W‖∞ ‖r‖∞) \[1\]. Default 1e-12.
     pub tolerance: f64,
 }
 

@@ -45,7 +45,7 @@ pub struct FrictionSolution {
 }
 
 impl FrictionProblem<Matrix> {
-    /// A problem with one friction coefficient μ per contact [1].
+    /// A problem with one friction coefficient μ per contact \[1\].
     pub fn new(matrix: Matrix, q: Vec<f64>, coefficients: Vec<f64>, space: ContactSpace) -> Result<Self, ProblemError> {
         if matrix.columns() != matrix.rows() {
             let (found, expected) = (matrix.columns(), matrix.rows());
