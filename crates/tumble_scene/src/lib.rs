@@ -21,6 +21,7 @@
 mod build;
 pub mod diagnostics;
 pub mod expand;
+pub mod expect;
 pub mod format;
 mod load;
 pub mod materials;

@@ -1,0 +1,88 @@
+//! Comparing what was measured with what is right.
+
+use super::{Expected, Finding, Measured, Near};
+
+/// How far a measurement is from being wrong, or beyond it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Judgement {
+    /// Whether it is right.
+    pub holds: bool,
+    /// Grows as the measurement gets worse; comparable between measurements of one expectation. Infinite for what is not a number.
+    pub badness: f64,
+}
+
+impl Judgement {
+    /// Judges a badness, for a comparison that said `holds`: what is not a number is never right.
+    fn new(holds: bool, badness: f64) -> Self {
+        if badness.is_nan() { Self { holds: false, badness: f64::INFINITY } } else { Self { holds, badness } }
+    }
+
+    /// The worse of two.
+    fn and(self, other: Self) -> Self {
+        if self.is_better_than(other) { other } else { self }
+    }
+
+    /// Whether the other is wrong and this is not, or else has the greater badness.
+    fn is_better_than(self, other: Self) -> bool {
+        (self.holds && !other.holds) || (self.holds == other.holds && self.badness < other.badness)
+    }
+}
+
+impl Finding {
+    pub fn holds(&self) -> bool {
+        self.judgement().holds
+    }
+
+    fn judgement(&self) -> Judgement {
+        match (&self.expected, &self.measured) {
+            (Expected::Number { near, above, below }, &Measured::Number(number)) => {
+                let claims = [
+                    near.map(|near| is_near(number, near)),
+                    above.map(|bound| is_below(bound, number)),
+                    below.map(|bound| is_below(number, bound)),
+                ];
+                all(claims.into_iter().flatten())
+            }
+            (&Expected::AtMost(bound), &Measured::Number(number)) => Judgement::new(number <= bound, number - bound),
+            (&Expected::Vector { is, within }, &Measured::Vector(vector)) => {
+                let distance = (vector - is).length();
+                Judgement::new(distance <= within, distance - within)
+            }
+            (&Expected::Rest { speed_below, turn_below, drift_below }, &Measured::Rest { speed, turn, drift }) => {
+                // Ratios, because the three bounds have different units.
+                let ratio = |number: f64, bound: f64| Judgement::new(number < bound, number / bound);
+                let drift = drift_below.map(|bound| ratio(drift, bound));
+                all([ratio(speed, speed_below), ratio(turn, turn_below)].into_iter().chain(drift))
+            }
+            (Expected::Order, Measured::Times(times)) => {
+                let rise = times.is_sorted_by(|one, next| matches!((one, next), (Some(one), Some(next)) if one < next));
+                Judgement::new(rise, 0.0)
+            }
+            (Expected::Never, Measured::Times(times)) => Judgement::new(times.iter().all(Option::is_none), 0.0),
+            (Expected::Fingerprint(digits), Measured::Fingerprint(fingerprint)) => {
+                Judgement::new(digits.parse() == Ok(*fingerprint), 0.0)
+            }
+            _ => unreachable!("an expectation is measured in its own kind"),
+        }
+    }
+}
+
+fn is_near(number: f64, Near { is, within }: Near) -> Judgement {
+    let distance = (number - is).abs();
+    Judgement::new(distance <= within, distance - within)
+}
+
+fn is_below(number: f64, bound: f64) -> Judgement {
+    Judgement::new(number < bound, number - bound)
+}
+
+/// The worst of several; without any, what says nothing is not right.
+fn all(claims: impl Iterator<Item = Judgement>) -> Judgement {
+    claims.reduce(Judgement::and).unwrap_or(Judgement { holds: false, badness: f64::INFINITY })
+}
+
+/// The worst of several findings, the first of equally bad ones; none if there is none.
+pub(super) fn worst(findings: impl IntoIterator<Item = Finding>) -> Option<Finding> {
+    let judged = findings.into_iter().map(|finding| (finding.judgement(), finding));
+    judged.reduce(|worst, next| if worst.0.is_better_than(next.0) { next } else { worst }).map(|(_, finding)| finding)
+}

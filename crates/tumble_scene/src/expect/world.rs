@@ -1,0 +1,73 @@
+//! What is expected of the whole world, from the audit of every step: energy, momentum, overlap.
+
+use tumble_record::AuditRow;
+
+use super::judge::worst;
+use super::{Expected, Finding, Measured, NotMeasured, Run};
+use crate::format::When;
+
+/// From the start to the end.
+const WHOLE_RUN: When = When::Throughout { from: 0.0, until: f64::INFINITY };
+
+impl Run<'_> {
+    /// Largest rise of the total energy above its lowest value so far [J].
+    pub(super) fn energy_never_rises(&self, slack: f64) -> Result<Finding, NotMeasured> {
+        let mut lowest = self.timeline.first_audit()?.total;
+        self.worst_row(WHOLE_RUN, Expected::AtMost(slack), |row| {
+            // `f64::min` passes over what is not a number; the difference does not.
+            lowest = lowest.min(row.total);
+            Measured::Number(row.total - lowest)
+        })
+    }
+
+    /// Total energy against that of the start [J].
+    pub(super) fn energy_kept(&self, within: f64) -> Result<Finding, NotMeasured> {
+        let expected = Expected::near(self.timeline.first_audit()?.total, within);
+        self.worst_row(WHOLE_RUN, expected, |row| Measured::Number(row.total))
+    }
+
+    /// Total momentum against that of the start [kg·m/s].
+    pub(super) fn momentum_kept(&self, within: f64) -> Result<Finding, NotMeasured> {
+        let expected = Expected::Vector { is: self.timeline.first_audit()?.momentum, within };
+        self.worst_row(WHOLE_RUN, expected, |row| Measured::Vector(row.momentum))
+    }
+
+    /// Angular momentum about the origin against that of the start [kg·m²/s].
+    pub(super) fn angular_momentum_kept(&self, within: f64) -> Result<Finding, NotMeasured> {
+        let expected = Expected::near(self.timeline.first_audit()?.angular_momentum, within);
+        self.worst_row(WHOLE_RUN, expected, |row| Measured::Number(row.angular_momentum))
+    }
+
+    /// Deepest overlap of any two bodies [m].
+    pub(super) fn depth(&self, below: f64, when: When) -> Result<Finding, NotMeasured> {
+        let expected = Expected::Number { near: None, above: None, below: Some(below) };
+        let measured = |row: &AuditRow| Measured::Number(row.deepest_overlap);
+        match when {
+            When::At(time) => {
+                let row = self.timeline.audit_at(time)?;
+                Ok(Finding { measured: measured(row), expected, time: Some(row.time), body: None })
+            }
+            When::Throughout { .. } => {
+                self.timeline.first_audit()?;
+                self.worst_row(when, expected, measured)
+            }
+        }
+    }
+
+    /// The worst audit row of a window.
+    fn worst_row(
+        &self,
+        when: When,
+        expected: Expected,
+        mut measure: impl FnMut(&AuditRow) -> Measured,
+    ) -> Result<Finding, NotMeasured> {
+        let rows = self.timeline.recording.audit.iter().filter(|row| self.timeline.contains(when, row.time));
+        let findings = rows.map(|row| Finding {
+            measured: measure(row),
+            expected: expected.clone(),
+            time: Some(row.time),
+            body: None,
+        });
+        self.timeline.conclude(worst(findings), when)
+    }
+}
