@@ -22,7 +22,7 @@ use self::path::{Path, PathEnd};
 use crate::active_set::polish;
 use crate::factor::{Definiteness, definiteness};
 use crate::matrix::{Matrix, largest};
-use crate::outcome::{Method, Report, Solution, SolveError, judge_pivoting};
+use crate::outcome::{Method, Report, Solution, SolveError, judge_pivoting, stopped};
 use crate::problem::Lcp;
 use crate::proximal::proximal;
 use crate::standard::{Standard, equilibrate};
@@ -139,9 +139,7 @@ impl Lemke {
             PathEnd::Singular => Err(SolveError::SingularPivot { row: 0 }),
             PathEnd::NotFinite => Err(SolveError::NotFinite),
             PathEnd::OutOfPivots => {
-                let z = polish(problem, recover(&x));
-                let report = Report { method: Method::Lemke, iterations: pivots, residual: problem.residual(&z) };
-                Err(SolveError::CyclingStopped { z, report })
+                stopped(judge_pivoting(problem, polish(problem, recover(&x)), Method::Lemke, pivots))
             }
         }
     }

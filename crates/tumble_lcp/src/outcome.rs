@@ -142,6 +142,14 @@ pub(crate) fn judge_pivoting(
     judge(problem, z, method, pivots, bar)
 }
 
+/// Where pivots were stopped at their cap: a solution all the same, if the place happens to be one.
+pub(crate) fn stopped(end: Result<Solution, SolveError>) -> Result<Solution, SolveError> {
+    end.map_err(|error| match error {
+        SolveError::NotConverged { z, report } => SolveError::CyclingStopped { z, report },
+        other => other,
+    })
+}
+
 /// The largest residual a pivoting method may return with z.
 pub(crate) fn pivoting_bar(problem: &Lcp<Matrix>, z: &[f64]) -> f64 {
     relative_bar(problem, z, PIVOTING_TOLERANCE)

@@ -27,7 +27,7 @@ mod run;
 
 use self::run::{Run, Stop};
 use crate::active_set::polish;
-use crate::outcome::{Method, Report, Solution, SolveError, judge_pivoting};
+use crate::outcome::{Method, Report, Solution, SolveError, judge_pivoting, stopped};
 use crate::problem::Lcp;
 use crate::proximal::proximal;
 
@@ -98,10 +98,7 @@ impl PrincipalPivoting {
             |z: &[f64]| Report { method: Method::PrincipalPivoting, iterations: pivots, residual: problem.residual(z) };
         match end {
             Ok(()) => judge_pivoting(problem, polish(problem, z), Method::PrincipalPivoting, pivots),
-            Err(Stop::Cap) => {
-                let z = polish(problem, z);
-                Err(SolveError::CyclingStopped { report: report(&z), z })
-            }
+            Err(Stop::Cap) => stopped(judge_pivoting(problem, polish(problem, z), Method::PrincipalPivoting, pivots)),
             Err(Stop::Singular(row)) => Err(SolveError::SingularPivot { row }),
             Err(Stop::NotFinite) => Err(SolveError::NotFinite),
             Err(Stop::Ray(ray)) => {

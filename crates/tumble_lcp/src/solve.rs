@@ -53,8 +53,8 @@ const LARGE: usize = 400;
 /// | M | up to 400 rows | more |
 /// |---|---|---|
 /// | friction rows | principal pivoting, Newton, Lemke | Newton, then the same |
-/// | symmetric, semidefinite | principal pivoting, interior point | interior point first |
-/// | semidefinite | Lemke, interior point | interior point first |
+/// | symmetric, definite | principal pivoting, interior point | interior point first |
+/// | semidefinite, or not symmetric | Lemke, interior point, principal pivoting | interior point first |
 /// | other | Lemke, principal pivoting, Newton, Lemke along other paths, enumeration up to n = 12 | Newton first |
 ///
 /// A certificate of infeasibility ends the search. When all fail, the failure with the most to say is returned.
@@ -133,7 +133,7 @@ fn candidates(problem: &Lcp, class: MatrixClass) -> Vec<Candidate> {
         list.extend([Candidate::Principal, Candidate::Newton, ones, Candidate::GaussSeidelThenNewton]);
     } else if class.definiteness == Definiteness::Indefinite {
         list.extend([ones, Candidate::Principal, Candidate::Newton]);
-    } else if class.symmetric {
+    } else if class.symmetric && class.definiteness == Definiteness::Positive {
         list.extend([Candidate::Principal, Candidate::InteriorPoint, ones, Candidate::Newton]);
     } else {
         list.extend([ones, Candidate::InteriorPoint, Candidate::Principal, Candidate::Newton]);
