@@ -1,1 +1,143 @@
-fn main() {}
+//! Speed and memory of tumble: `cargo run --release -p tumble_bench`.
+//!
+//! Machines are noisy, so every question is answered by a ratio of figures measured in turn within one run, and each figure
+//! is the fastest of several rounds.
+
+mod measure;
+mod scenes;
+
+use std::process::ExitCode;
+
+use clap::{Parser, ValueEnum};
+use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};
+use tumble_sim::{ContactModel, StepError};
+
+use measure::{Timing, bytes_per_body, time_steps};
+
+#[global_allocator]
+static ALLOCATOR: &StatsAlloc<std::alloc::System> = &INSTRUMENTED_SYSTEM;
+
+/// What to measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Question {
+    /// One free rod body: cost of a step through the whole schedule.
+    FreeRod,
+    /// Spread-out bodies in free fall: cost per body at 1000 and at 10 000.
+    Spread,
+    /// 2000 bodies of three rods settle on a floor: faster than real time?
+    Settle,
+    /// Bytes per body and per contact pair.
+    Memory,
+}
+
+/// Speed and memory of tumble.
+#[derive(Debug, Parser)]
+struct Arguments {
+    /// What to measure; everything unless given.
+    question: Option<Question>,
+    /// Contact model of `settle`.
+    #[arg(long, value_parser = contact_model, default_value = "impulse")]
+    contact: ContactModel,
+    /// Bodies of `settle`.
+    #[arg(long, default_value_t = 2000)]
+    bodies: usize,
+    /// Steps of `settle`.
+    #[arg(long, default_value_t = 600)]
+    steps: u32,
+    /// Rounds of each figure; the fastest counts.
+    #[arg(long, default_value_t = 5)]
+    rounds: u32,
+}
+
+fn contact_model(word: &str) -> Result<ContactModel, String> {
+    let known = || ContactModel::ALL.map(ContactModel::word).join(", ");
+    ContactModel::ALL.into_iter().find(|model| model.word() == word).ok_or_else(|| format!("expected one of: {}", known()))
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let asked = |question| arguments.question.is_none_or(|only| only == question);
+    let answer = || -> Result<(), StepError> {
+        if asked(Question::FreeRod) {
+            free_rod(&arguments)?;
+        }
+        if asked(Question::Spread) {
+            spread(&arguments)?;
+        }
+        if asked(Question::Settle) {
+            settle(&arguments)?;
+        }
+        if asked(Question::Memory) {
+            memory()?;
+        }
+        Ok(())
+    };
+    match answer() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("tumble_bench: {error}");
+            ExitCode::from(3)
+        }
+    }
+}
+
+fn free_rod(arguments: &Arguments) -> Result<(), StepError> {
+    let mut rod = scenes::free_rod();
+    let free = time_steps(&mut rod, 100_000, arguments.rounds)?;
+    let mut resting = scenes::resting_rod();
+    let resting = time_steps(&mut resting, 100_000, arguments.rounds)?;
+    println!("one free rod                {:8.3} µs a step   (aim: 1)", free.microseconds);
+    println!("one rod resting on a floor  {:8.3} µs a step   ({:.1} × free)", resting.microseconds, resting.over(free));
+    Ok(())
+}
+
+fn spread(arguments: &Arguments) -> Result<(), StepError> {
+    let mut small = scenes::spread(1_000);
+    let mut large = scenes::spread(10_000);
+    let (mut few, mut many) = (Timing::SLOWEST, Timing::SLOWEST);
+    // In turn, so that both see the same moods of the machine.
+    for _ in 0..arguments.rounds {
+        few = few.faster(time_steps(&mut small, 200, 1)?);
+        many = many.faster(time_steps(&mut large, 20, 1)?);
+    }
+    let (few, many) = (few.microseconds / 1_000.0, many.microseconds / 10_000.0);
+    println!("spread-out rods,  1000      {:8.4} µs a step and body", few);
+    println!("spread-out rods, 10000      {:8.4} µs a step and body   ratio {:.2} (aim: at most 1.5)", many, many / few);
+    Ok(())
+}
+
+fn settle(arguments: &Arguments) -> Result<(), StepError> {
+    let mut pile = scenes::settle(arguments.bodies, arguments.contact);
+    let dt = pile.settings().dt;
+    let started = std::time::Instant::now();
+    let mut slowest: f64 = 0.0;
+    for _ in 0..arguments.steps {
+        let step = std::time::Instant::now();
+        pile.step()?;
+        slowest = slowest.max(step.elapsed().as_secs_f64());
+    }
+    let wall = started.elapsed().as_secs_f64();
+    let simulated = f64::from(arguments.steps) * dt;
+    let figures = scenes::pile_figures(&mut pile);
+    println!(
+        "{} bodies of three rods, {}: {:.2} s simulated in {:.2} s: {:.2} × real time; slowest step {:.1} ms; {} touching points, deepest overlap {:.4} m, fastest body {:.3} m/s",
+        arguments.bodies,
+        arguments.contact.word(),
+        simulated,
+        wall,
+        simulated / wall,
+        slowest * 1e3,
+        figures.touching,
+        figures.deepest_overlap,
+        figures.fastest
+    );
+    Ok(())
+}
+
+fn memory() -> Result<(), StepError> {
+    let rods = bytes_per_body(ALLOCATOR, |count| scenes::spread(count))?;
+    println!("memory: {rods:.0} bytes for each body with one rod");
+    let compounds = bytes_per_body(ALLOCATOR, |count| scenes::settle(count, ContactModel::Impulse))?;
+    println!("memory: {compounds:.0} bytes for each body with three rods, its near pairs included");
+    Ok(())
+}

@@ -22,6 +22,7 @@ use crate::format::{AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Gr
 use crate::format::{ContactModel, ImpulseEntry, Integrator, PenaltyEntry, PenaltyLaw};
 use crate::load::Loaded;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
+use crate::overlap::initial_overlaps;
 use crate::shapes::planar_shape;
 
 /// Why a scene cannot become a simulation.
@@ -52,8 +53,12 @@ pub trait FromScene: Sized {
     ///
     /// # Errors
     ///
-    /// When a body cannot be simulated; validation has found everything else before.
+    /// When bodies [overlap](initial_overlaps) at the start, or one cannot be simulated; loading has found everything else before.
     fn from_loaded(loaded: &Loaded) -> Result<Self, BuildError> {
+        let overlaps = initial_overlaps(&loaded.scene, &loaded.materials)?;
+        if !overlaps.is_empty() {
+            return Err(BuildError::Scene(loaded.diagnose(overlaps)));
+        }
         Self::with_materials(&loaded.scene, &loaded.materials)
     }
 
@@ -65,10 +70,16 @@ pub trait FromScene: Sized {
     fn from_scene(scene: &Scene) -> Result<Self, BuildError> {
         let materials = MaterialLibrary::of_scene(scene);
         scene.check(&materials).map_err(BuildError::Scene)?;
+        let overlaps = initial_overlaps(scene, &materials)?;
+        if !overlaps.is_empty() {
+            let mut mistakes = Diagnostics::new("the scene", "");
+            mistakes.extend(overlaps);
+            return Err(BuildError::Scene(mistakes));
+        }
         Self::with_materials(scene, &materials)
     }
 
-    /// Builds a scene whose materials are looked up in a library.
+    /// Builds a scene whose materials are looked up in a library, without looking for mistakes.
     ///
     /// # Errors
     ///
@@ -114,7 +125,7 @@ fn settings(scene: &Scene) -> Settings {
             ContactModel::Impulse => tumble_sim::ContactModel::Impulse,
         },
         penalty: penalty_settings(&scene.models.penalty, scene.length_scale),
-        impulse: impulse_settings(&scene.models.impulse, scene.length_scale),
+        impulse: impulse_settings(&scene.models.impulse),
         ..Settings::default()
     }
 }
@@ -134,11 +145,11 @@ fn penalty_settings(entry: &PenaltyEntry, length_scale: f64) -> PenaltySettings 
     PenaltySettings { law }
 }
 
-fn impulse_settings(entry: &ImpulseEntry, length_scale: f64) -> ImpulseSettings {
+fn impulse_settings(entry: &ImpulseEntry) -> ImpulseSettings {
     let default = ImpulseSettings::default();
     ImpulseSettings {
         iterations: entry.iterations.unwrap_or(default.iterations),
-        colliding_above: entry.colliding_tolerance.map_or(default.colliding_above, |speed| speed / length_scale),
+        colliding_above: entry.colliding_tolerance,
         impulses_per_contact: entry.max_impulses.unwrap_or(default.impulses_per_contact),
         ..default
     }
@@ -343,11 +354,7 @@ fn add_force(simulation: &mut Simulation, entry: &ForceEntry) -> Result<(), Buil
             Axes::World => tumble_sim::Axes::World,
             Axes::Body => tumble_sim::Axes::Body,
         },
-        course: Course {
-            from: entry.from,
-            until: entry.until.unwrap_or(f64::INFINITY),
-            factor: entry.factor.clone(),
-        },
+        course: Course { from: entry.from, until: entry.until.unwrap_or(f64::INFINITY), factor: entry.factor.clone() },
     };
     simulation.spawn(force);
     Ok(())

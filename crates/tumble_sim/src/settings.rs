@@ -9,8 +9,9 @@ pub enum Integrator {
     /// v += a Δt, then x += v Δt (R7). First order; bounded energy error for oscillations.
     #[default]
     SymplecticEuler,
-    /// x += v₀ Δt + ½ a Δt², v += a Δt: exact under constant force, second order otherwise. Where contacts or filters change the
-    /// velocity, x moves with the mean of the velocities before and after.
+    /// x += v₀ Δt + ½ a Δt², v += a Δt: exact under constant force. Where the force changes, the next step adds half of the change to
+    /// the velocity it starts from (velocity Verlet): second order. Where contacts or filters change the velocity, x moves with the
+    /// mean of the velocities before and after.
     Ballistic,
 }
 
@@ -88,9 +89,10 @@ pub struct ImpulseSettings {
     pub iterations: u32,
     /// A sweep that changes no point's speed by more than this is the last [m/s per length scale]. Default 1e-12.
     pub tolerance: f64,
-    /// A point that approaches faster than this is colliding [m/s per length scale]. Default 1e-9.
-    pub colliding_above: f64,
-    /// Most one-by-one impulses per step and contact point, on average [1]. Default 200.
+    /// A point that approaches faster than this is colliding [m/s]. Default the larger of 1e-9 length scales per second and a
+    /// thousandth of what gravity adds in a step: slower approaches are left to the velocity filter of the next step.
+    pub colliding_above: Option<f64>,
+    /// Most one-by-one impulses per step and contact point, on average [1]. Default 50.
     pub impulses_per_contact: u32,
     /// Part of an overlap beyond the slop that is taken out per step [1]. Default 0.2.
     pub recovery: f64,
@@ -98,7 +100,7 @@ pub struct ImpulseSettings {
 
 impl Default for ImpulseSettings {
     fn default() -> Self {
-        Self { iterations: 50, tolerance: 1e-12, colliding_above: 1e-9, impulses_per_contact: 200, recovery: 0.2 }
+        Self { iterations: 50, tolerance: 1e-12, colliding_above: None, impulses_per_contact: 50, recovery: 0.2 }
     }
 }
 
@@ -145,6 +147,12 @@ impl<D: Dim> Settings<D> {
     /// Overlap that is left alone [m].
     pub fn slop(&self) -> f64 {
         self.slop.unwrap_or(0.005 * self.length_scale)
+    }
+
+    /// A point that approaches faster than this is colliding [m/s].
+    pub fn colliding_above(&self) -> f64 {
+        let default = || (1e-9 * self.length_scale).max(1e-3 * self.gravity.length() * self.dt);
+        self.impulse.colliding_above.unwrap_or_else(default)
     }
 
     /// Farthest travel within a step against which contacts are made beforehand [m].

@@ -15,9 +15,6 @@
 //! depends on the order (the worst first; of equals, the first row). Known limit: Newton's law with friction can create energy in
 //! rare configurations (Kane's paradox; Wang and Mason 1992).
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
-
 use tumble_math::{Dim, Linear, Matrix, Vector};
 
 use crate::contact::tangential;
@@ -44,6 +41,8 @@ pub struct Approach {
     pub half_step: f64,
     /// A rebound no faster than this would not leave the surface within the step, and is rest [m/s].
     pub rest_below: f64,
+    /// Approach speed that is no collision but the error of an earlier solver: the point is colliding only beyond it [m/s].
+    pub ignored: f64,
 }
 
 /// Resolves all colliding contacts of `rows`.
@@ -59,46 +58,42 @@ pub fn resolve_one_by_one<D: Dim>(
 ) -> Report {
     given.clear();
     given.resize(rows.len(), D::Vector::ZERO);
-    let mut queue = BinaryHeap::new();
-    let mut latest = vec![0_u32; rows.len()];
     let mut report = Report::default();
-    for (i, row) in rows.iter().enumerate() {
-        push_if_colliding(&mut queue, bodies, row, i, 0, settings);
-    }
-    if queue.is_empty() {
+    let excess = |bodies: &[SolverBody<D>], i: usize, approach: &Approach| {
+        -rows[i].separating_speed(bodies) - approach.ignored - settings.colliding_above
+    };
+    let mut queue = Tournament::of(rows.iter().enumerate().map(|(i, _)| excess(bodies, i, &approaches[i])));
+    if queue.best().is_none_or(|(_, excess)| excess <= 0.0) {
         return report;
     }
 
     let neighbours = Neighbours::of(bodies, rows);
     let cap = (rows.len() as u64 * u64::from(settings.impulses_per_contact)).min(u64::from(u32::MAX)) as u32;
-    while let Some(worst) = queue.pop() {
-        if worst.version != latest[worst.row] {
-            continue;
-        }
+    while let Some((worst, _)) = queue.best().filter(|(_, excess)| *excess > 0.0) {
         if report.iterations == cap {
             report.ending = Ending::NotConverged;
             break;
         }
         report.iterations += 1;
-        let row = &rows[worst.row];
+        let row = &rows[worst];
         let velocity = row.relative_velocity(bodies);
-        let rebound = rebound_speed(-velocity[0], row.surface.restitution, &mut approaches[worst.row]);
+        let rebound = rebound_speed(-velocity[0], row.surface.restitution, &mut approaches[worst]);
         let impulse = impulse_for(&row.compliance(bodies), velocity, rebound, &row.surface);
         row.apply(bodies, impulse);
-        given[worst.row] += impulse;
+        given[worst] += impulse;
         for &i in neighbours.of_bodies(row.a, row.b) {
             let i = i as usize;
-            latest[i] += 1;
-            push_if_colliding(&mut queue, bodies, &rows[i], i, latest[i], settings);
+            queue.update(i, excess(bodies, i, &approaches[i]));
         }
     }
-    report.residual = rows.iter().map(|row| -row.separating_speed(bodies)).fold(0.0, f64::max);
+    let left = |(row, approach): (&ContactRow<D>, &Approach)| -row.separating_speed(bodies) - approach.ignored;
+    report.residual = rows.iter().zip(approaches.iter()).map(left).fold(0.0, f64::max);
     report
 }
 
 /// Separating speed after an impact at `approach` speed; uses up the correction [m/s].
 fn rebound_speed(approach: f64, restitution: f64, reading: &mut Approach) -> f64 {
-    let Approach { correction, half_step, rest_below } = std::mem::take(reading);
+    let Approach { correction, half_step, rest_below, .. } = std::mem::take(reading);
     let rebound = restitution * (approach + correction).max(0.0);
     if rebound > rest_below { rebound + half_step } else { 0.0 }
 }
@@ -142,44 +137,57 @@ fn against<V: Vector>(slip: V, fallback: V) -> V {
     -direction.unwrap_or(V::ZERO)
 }
 
-/// A colliding point in the queue; the greatest approaches fastest.
-struct Colliding {
-    approach: f64,
-    row: usize,
-    version: u32,
+/// Finds the greatest of many numbers of which a few change at a time; of equals, the first.
+///
+/// A complete binary tree over the numbers: each node holds the index of the winner below it, so a change costs one look per level, and
+/// stops where the winner stays and has not changed itself.
+struct Tournament {
+    values: Vec<f64>,
+    /// Winners; node i has the children 2i and 2i + 1, and the leaves begin at `first_leaf`.
+    winners: Vec<u32>,
+    first_leaf: usize,
 }
 
-impl Ord for Colliding {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.approach.total_cmp(&other.approach).then(other.row.cmp(&self.row))
+impl Tournament {
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let values: Vec<f64> = values.collect();
+        let first_leaf = values.len().next_power_of_two();
+        let mut tournament = Self { winners: vec![0; 2 * first_leaf], first_leaf, values };
+        for i in 0..first_leaf {
+            tournament.winners[first_leaf + i] = i as u32;
+        }
+        for node in (1..first_leaf).rev() {
+            tournament.winners[node] = tournament.play(node);
+        }
+        tournament
     }
-}
 
-impl PartialOrd for Colliding {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
+    /// The greatest number and its index.
+    fn best(&self) -> Option<(usize, f64)> {
+        let winner = *self.winners.get(1)? as usize;
+        self.values.get(winner).map(|value| (winner, *value))
     }
-}
 
-impl PartialEq for Colliding {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
+    fn update(&mut self, index: usize, value: f64) {
+        if self.values[index] == value {
+            return;
+        }
+        self.values[index] = value;
+        let mut node = (self.first_leaf + index) / 2;
+        while node > 0 {
+            let winner = self.play(node);
+            if winner == self.winners[node] && winner as usize != index {
+                return;
+            }
+            self.winners[node] = winner;
+            node /= 2;
+        }
     }
-}
 
-impl Eq for Colliding {}
-
-fn push_if_colliding<D: Dim>(
-    queue: &mut BinaryHeap<Colliding>,
-    bodies: &[SolverBody<D>],
-    row: &ContactRow<D>,
-    index: usize,
-    version: u32,
-    settings: &ImpactSettings,
-) {
-    let approach = -row.separating_speed(bodies);
-    if approach > settings.colliding_above {
-        queue.push(Colliding { approach, row: index, version });
+    fn play(&self, node: usize) -> u32 {
+        let (left, right) = (self.winners[2 * node], self.winners[2 * node + 1]);
+        let value = |index: u32| self.values.get(index as usize).copied().unwrap_or(f64::NEG_INFINITY);
+        if value(right) > value(left) { right } else { left }
     }
 }
 

@@ -116,7 +116,7 @@ pub fn resolve_impulses<D: Geometry>(
     }
     problem.gather_bodies(&bodies, detection.motions().len());
     let impact = ImpactSettings {
-        colliding_above: settings.impulse.colliding_above * settings.length_scale,
+        colliding_above: settings.colliding_above(),
         impulses_per_contact: settings.impulse.impulses_per_contact,
     };
     let colliding = |row: &ContactRow<D>| -row.separating_speed(&problem.bodies) > impact.colliding_above;
@@ -188,7 +188,8 @@ impl Reading {
     ) -> Approach {
         let touched_before = memory.separation_before.is_some_and(|separation| separation <= self.touch_tolerance);
         if touched_before {
-            return Approach { correction: -approach.max(0.0), ..Approach::default() };
+            let ignored = approach.max(0.0);
+            return Approach { correction: -ignored, ignored, ..Approach::default() };
         }
         let gained = self.acceleration(row, detection) * self.dt;
         let (ahead, half_step) = match self.integrator {
@@ -201,7 +202,7 @@ impl Reading {
             // Nothing is known of the way here: it took the whole step.
             None => (-approach + gained - ahead).abs(),
         };
-        Approach { correction: at_surface - approach, half_step, rest_below: (-0.5 * gained).max(0.0) }
+        Approach { correction: at_surface - approach, half_step, rest_below: (-0.5 * gained).max(0.0), ignored: 0.0 }
     }
 
     /// Acceleration of the gap by the forces of the step [m/s²].
