@@ -73,15 +73,30 @@ pub fn integrate_velocities<D: Dim>(
 }
 
 /// Remembers the velocities before the step, for the ballistic integrator.
+///
+/// The step before could only use the acceleration at its beginning. Now that the one at its end is known, half of their difference
+/// makes up for it, so that velocities follow the trapezoidal rule (velocity Verlet; Swope et al. 1982):
+///
+/// ```text
+/// v_n += ½ (a_n − a_{n−1}) Δt
+/// ```
 pub fn remember_velocities<D: Dim>(
+    clock: Res<Clock>,
     mut bodies: Query<(
-        &LinearVelocity<VectorOf<D>>,
-        &AngularVelocity<AngularOf<D>>,
+        &Acceleration<VectorOf<D>>,
+        &AngularAcceleration<AngularOf<D>>,
+        &mut LinearVelocity<VectorOf<D>>,
+        &mut AngularVelocity<AngularOf<D>>,
         &mut PreviousVelocity<VectorOf<D>, AngularOf<D>>,
     )>,
 ) {
-    for (velocity, angular_velocity, mut previous) in &mut bodies {
-        *previous = PreviousVelocity { linear: velocity.0, angular: angular_velocity.0 };
+    let half_step = 0.5 * clock.dt;
+    for (a, alpha, mut velocity, mut angular_velocity, mut previous) in &mut bodies {
+        if let Some((a_before, alpha_before)) = previous.accelerations.replace((a.0, alpha.0)) {
+            velocity.bypass_change_detection().0 += (a.0 - a_before) * half_step;
+            angular_velocity.bypass_change_detection().0 += (alpha.0 - alpha_before) * half_step;
+        }
+        (previous.linear, previous.angular) = (velocity.0, angular_velocity.0);
     }
 }
 

@@ -90,7 +90,7 @@ pub struct ImpulseSettings {
     /// A sweep that changes no point's speed by more than this is the last [m/s per length scale]. Default 1e-12.
     pub tolerance: f64,
     /// A point that approaches faster than this is colliding [m/s]. Default the larger of 1e-9 length scales per second and a
-    /// thousandth of what gravity adds in a step: slower approaches are left to the velocity filter of the next step.
+    /// hundredth of what gravity adds in a step: slower approaches are left to the velocity filter of the next step.
     pub colliding_above: Option<f64>,
     /// Most one-by-one impulses per step and contact point, on average [1]. Default 50.
     pub impulses_per_contact: u32,
@@ -151,7 +151,7 @@ impl<D: Dim> Settings<D> {
 
     /// A point that approaches faster than this is colliding [m/s].
     pub fn colliding_above(&self) -> f64 {
-        let default = || (1e-9 * self.length_scale).max(1e-3 * self.gravity.length() * self.dt);
+        let default = || (1e-9 * self.length_scale).max(1e-2 * self.gravity.length() * self.dt);
         self.impulse.colliding_above.unwrap_or_else(default)
     }
 

@@ -76,13 +76,15 @@ pub struct Acceleration<V: Vector>(pub V);
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct AngularAcceleration<W: Angular>(pub W);
 
-/// Velocities at the start of the step, kept for the ballistic integrator only.
+/// What the ballistic integrator, and only it, keeps of the step before.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct PreviousVelocity<V: Vector, W: Angular> {
-    /// Of the centre of mass [m/s].
+    /// Velocity of the centre of mass at the start of the step [m/s].
     pub linear: V,
-    /// Rate of turn [rad/s].
+    /// Rate of turn at the start of the step [rad/s].
     pub angular: W,
+    /// Linear and angular acceleration of the step before; `None` in the first [m/s², rad/s²].
+    pub accelerations: Option<(V, W)>,
 }
 
 /// What moves a body.

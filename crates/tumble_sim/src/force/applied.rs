@@ -3,8 +3,8 @@
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Rotation};
 
-use crate::Clock;
 use crate::body::{Force, InDim, Orientation, Torque};
+use crate::{Clock, Integrator, Settings};
 
 /// Axes in which a force is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,7 +61,7 @@ impl Course {
 
 /// A force at a point of a body, and a torque; an entity of its own.
 ///
-/// Courses are read at the end of the step, where symplectic Euler's velocities are.
+/// Courses are read where the integrator takes the acceleration: symplectic Euler at the end of the step, ballistic at its start.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct AppliedForce<D: Dim> {
     /// The body.
@@ -81,10 +81,14 @@ pub struct AppliedForce<D: Dim> {
 /// Adds all applied forces.
 pub fn apply_forces<D: Dim<Vector: InDim>>(
     clock: Res<Clock>,
+    settings: Res<Settings<D>>,
     applied: Query<&AppliedForce<D>>,
     mut bodies: Query<(&Orientation<D::Rotation>, &mut Force<D::Vector>, &mut Torque<D::Angular>)>,
 ) {
-    let time = clock.time_after_step();
+    let time = match settings.integrator {
+        Integrator::SymplecticEuler => clock.time_after_step(),
+        Integrator::Ballistic => clock.time(),
+    };
     for applied in &applied {
         let factor = applied.course.at(time);
         let Ok((orientation, mut force, mut torque)) = bodies.get_mut(applied.body) else { continue };
