@@ -32,22 +32,31 @@ pub struct FilterSettings {
     pub tolerance: f64,
 }
 
+/// What a sweep needs of a row besides its geometry.
+#[derive(Clone, Copy, Debug)]
+pub struct PreparedRow<D: Dim> {
+    /// K in the contact frame [1/kg].
+    compliance: D::Matrix,
+    /// 1 / K_ii; 0 where nothing yields [kg].
+    inverse_diagonal: D::Vector,
+}
+
 /// Filters the velocities of `bodies` through touching contacts; `rows[i].impulse` and `slip` are updated.
 ///
-/// `diagonals` is scratch space, kept by the caller so that a steady step allocates nothing.
+/// `prepared` is scratch space, kept by the caller so that a steady step allocates nothing.
 pub fn filter_velocities<D: Dim>(
     bodies: &mut [SolverBody<D>],
     rows: &mut [ContactRow<D>],
-    diagonals: &mut Vec<D::Vector>,
+    prepared: &mut Vec<PreparedRow<D>>,
     settings: &FilterSettings,
 ) -> Report {
-    diagonals.clear();
-    diagonals.extend(rows.iter().map(|row| inverse_diagonal(row, bodies)));
+    prepared.clear();
+    prepared.extend(rows.iter().map(|row| prepare(row, bodies)));
     for row in rows.iter() {
         row.apply(bodies, row.impulse);
     }
 
-    let first = sweep_until_still(bodies, rows, diagonals, settings);
+    let first = sweep_until_still(bodies, rows, prepared, settings);
     let mut any_broke_away = false;
     for row in rows.iter_mut().filter(|row| row.slip == Slip::Sticking) {
         if slips(row, bodies, row.surface.static_friction, settings.tolerance) {
@@ -55,7 +64,7 @@ pub fn filter_velocities<D: Dim>(
             any_broke_away = true;
         }
     }
-    let second = any_broke_away.then(|| sweep_until_still(bodies, rows, diagonals, settings));
+    let second = any_broke_away.then(|| sweep_until_still(bodies, rows, prepared, settings));
     for row in rows.iter_mut().filter(|row| row.slip == Slip::Sliding) {
         if !slips(row, bodies, row.surface.kinetic_friction, settings.tolerance) {
             row.slip = Slip::Sticking;
@@ -66,15 +75,14 @@ pub fn filter_velocities<D: Dim>(
     Report { iterations: first.iterations + second_iterations, ..second.unwrap_or(first) }
 }
 
-/// 1 / K_ii of each axis of the contact frame; 0 where nothing yields.
-fn inverse_diagonal<D: Dim>(row: &ContactRow<D>, bodies: &[SolverBody<D>]) -> D::Vector {
+fn prepare<D: Dim>(row: &ContactRow<D>, bodies: &[SolverBody<D>]) -> PreparedRow<D> {
     let compliance = row.compliance(bodies);
-    let mut inverse = D::Vector::ZERO;
+    let mut inverse_diagonal = D::Vector::ZERO;
     for axis in 0..D::Vector::AXES {
         let diagonal = compliance.column(axis)[axis];
-        inverse[axis] = if diagonal > 0.0 { 1.0 / diagonal } else { 0.0 };
+        inverse_diagonal[axis] = if diagonal > 0.0 { 1.0 / diagonal } else { 0.0 };
     }
-    inverse
+    PreparedRow { compliance, inverse_diagonal }
 }
 
 /// Whether friction is used up and the point slips all the same.
@@ -88,7 +96,7 @@ fn slips<D: Dim>(row: &ContactRow<D>, bodies: &[SolverBody<D>], friction: f64, t
 fn sweep_until_still<D: Dim>(
     bodies: &mut [SolverBody<D>],
     rows: &mut [ContactRow<D>],
-    diagonals: &[D::Vector],
+    prepared: &[PreparedRow<D>],
     settings: &FilterSettings,
 ) -> Report {
     let mut report = Report::default();
@@ -98,7 +106,7 @@ fn sweep_until_still<D: Dim>(
         report.residual = 0.0;
         for i in 0..rows.len() {
             let i = if backwards { rows.len() - 1 - i } else { i };
-            report.residual = report.residual.max(solve_point(bodies, &mut rows[i], diagonals[i]));
+            report.residual = report.residual.max(solve_point(bodies, &mut rows[i], &prepared[i]));
         }
         if report.residual <= settings.tolerance {
             return report;
@@ -108,34 +116,33 @@ fn sweep_until_still<D: Dim>(
     report
 }
 
-/// Solves one point with all others as they are; returns how much its speed changed [m/s].
+/// Solves one point with all others as they are: first its normal, then its friction; returns how much its speed changed [m/s].
 #[inline]
-fn solve_point<D: Dim>(bodies: &mut [SolverBody<D>], row: &mut ContactRow<D>, inverse_diagonal: D::Vector) -> f64 {
-    let mut total = row.impulse;
-    total[0] = (total[0] - row.separating_speed(bodies) * inverse_diagonal[0]).max(0.0);
-    let mut normal_change = D::Vector::ZERO;
-    normal_change[0] = total[0] - row.impulse[0];
-    row.apply(bodies, normal_change);
+fn solve_point<D: Dim>(bodies: &mut [SolverBody<D>], row: &mut ContactRow<D>, prepared: &PreparedRow<D>) -> f64 {
+    let PreparedRow { compliance, inverse_diagonal } = prepared;
+    let velocity = row.relative_velocity(bodies);
+    let normal = (row.impulse[0] - velocity[0] * inverse_diagonal[0]).max(0.0);
+    // K says what the normal change does to the slip, so the bodies need to be asked only once.
+    let velocity = velocity + compliance.column(0) * (normal - row.impulse[0]);
 
     let friction = match row.slip {
         Slip::Sticking => row.surface.static_friction,
         Slip::Sliding => row.surface.kinetic_friction,
     };
-    let bound = friction * total[0];
-    let tried = tangential(total - row.relative_velocity(bodies).scale_by(inverse_diagonal));
+    let bound = friction * normal;
+    let tried = tangential(row.impulse - velocity.scale_by(*inverse_diagonal));
     let size = tried.length();
-    let held = if size > bound { tried * (bound / size) } else { tried };
-    let tangent_change = held - tangential(row.impulse);
-    row.apply(bodies, tangent_change);
-    row.impulse = held;
-    row.impulse[0] = total[0];
-
+    let mut solved = if size > bound { tried * (bound / size) } else { tried };
+    solved[0] = normal;
+    let change = solved - row.impulse;
+    if change == D::Vector::ZERO {
+        return 0.0;
+    }
+    row.impulse = solved;
+    row.apply(bodies, change);
     let mut worst: f64 = 0.0;
-    let change = normal_change + tangent_change;
     for axis in 0..D::Vector::AXES {
-        if inverse_diagonal[axis] > 0.0 {
-            worst = worst.max(change[axis].abs() / inverse_diagonal[axis]);
-        }
+        worst = worst.max(change[axis].abs() * compliance.column(axis)[axis]);
     }
     worst
 }

@@ -59,8 +59,9 @@ pub fn resolve_one_by_one<D: Dim>(
     given.clear();
     given.resize(rows.len(), D::Vector::ZERO);
     let mut report = Report::default();
+    // Points that are not colliding are all alike to the queue, so that most changes of speed leave it as it is.
     let excess = |bodies: &[SolverBody<D>], i: usize, approach: &Approach| {
-        -rows[i].separating_speed(bodies) - approach.ignored - settings.colliding_above
+        (-rows[i].separating_speed(bodies) - approach.ignored - settings.colliding_above).max(0.0)
     };
     let mut queue = Tournament::of(rows.iter().enumerate().map(|(i, _)| excess(bodies, i, &approaches[i])));
     if queue.best().is_none_or(|(_, excess)| excess <= 0.0) {

@@ -57,7 +57,7 @@ pub fn filter_velocities<D: Geometry>(
         tolerance: settings.impulse.tolerance * settings.length_scale,
     };
     let touching = &mut problem.rows[..problem.touching];
-    report.add(filter_slices(&mut problem.bodies, touching, &mut problem.scratch, &filter));
+    report.add(filter_slices(&mut problem.bodies, touching, &mut problem.prepared, &filter));
     problem.scatter_bodies(&mut bodies, &mut fault, StepSystems::FilterVelocities);
 
     for (row, source) in problem.rows.iter().zip(&problem.sources).take(problem.touching) {
@@ -138,11 +138,11 @@ pub fn resolve_impulses<D: Geometry>(
             _ => Approach::default(),
         })
         .collect();
-    let solved = resolve_one_by_one(&mut problem.bodies, &problem.rows, &mut approaches, &mut problem.scratch, &impact);
+    let solved = resolve_one_by_one(&mut problem.bodies, &problem.rows, &mut approaches, &mut problem.given, &impact);
     report.add(solved);
     problem.scatter_bodies(&mut bodies, &mut fault, StepSystems::ResolveImpulses);
 
-    for ((row, source), given) in problem.rows.iter().zip(&problem.sources).zip(&problem.scratch) {
+    for ((row, source), given) in problem.rows.iter().zip(&problem.sources).zip(&problem.given) {
         if *given != D::Vector::ZERO
             && let Ok((.., mut memory)) = pairs.get_mut(source.entity)
         {

@@ -2,6 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Inertia, Linear};
+use tumble_solver::filter::PreparedRow;
 use tumble_solver::{ContactRow, Ending, Report, SolverBody};
 
 use super::{ContactManifold, ContactMemory, ContactPair, Detection, PairKey};
@@ -42,7 +43,8 @@ pub struct ContactProblem<D: Geometry> {
     pub(super) touching: usize,
     pairs: Vec<(PairKey, Entity)>,
     near: Vec<(ContactRow<D>, RowSource)>,
-    pub(super) scratch: Vec<D::Vector>,
+    pub(super) prepared: Vec<PreparedRow<D>>,
+    pub(super) given: Vec<D::Vector>,
 }
 
 /// Where a row comes from.
@@ -61,7 +63,8 @@ impl<D: Geometry> Default for ContactProblem<D> {
             touching: 0,
             pairs: Vec::new(),
             near: Vec::new(),
-            scratch: Vec::new(),
+            prepared: Vec::new(),
+            given: Vec::new(),
         }
     }
 }
