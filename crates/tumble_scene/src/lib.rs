@@ -25,15 +25,18 @@ pub mod expect;
 pub mod format;
 mod load;
 pub mod materials;
+mod overlap;
 mod path;
 mod schema;
 pub mod shapes;
+pub mod shipped;
 mod text;
 mod validate;
 mod write;
 
 pub use build::{BuildError, FromScene};
 pub use load::{Loaded, load_table};
+pub use overlap::initial_overlaps;
 pub use path::ScenePath;
 pub use schema::schema;
 pub use validate::validate;

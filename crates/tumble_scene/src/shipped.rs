@@ -1,0 +1,82 @@
+//! The scenes that come with the program, embedded so that it needs no files.
+
+use crate::diagnostics::{Diagnostics, nearest};
+use crate::format::Scene;
+use crate::load::Loaded;
+
+/// A scene that comes with the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shipped {
+    /// Its name, which is that of its file without `.ron`.
+    pub name: &'static str,
+    /// The file.
+    pub text: &'static str,
+}
+
+macro_rules! shipped {
+    ($($name:literal),* $(,)?) => {
+        &[$(Shipped { name: $name, text: include_str!(concat!("../../../assets/scenes/planar/", $name, ".ron")) }),*]
+    };
+}
+
+/// Every shipped scene, by name.
+pub const SHIPPED: &[Shipped] = shipped!["homework_rods"];
+
+/// The scene that runs when none is named.
+pub const DEFAULT_SCENE: &str = "homework_rods";
+
+impl Shipped {
+    /// The scene of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        SHIPPED.iter().copied().find(|scene| scene.name == name)
+    }
+
+    /// The name that is nearest to one that does not exist, if any is near.
+    pub fn nearest(name: &str) -> Option<&'static str> {
+        nearest(name, SHIPPED.iter().map(|scene| scene.name))
+    }
+
+    /// Reads it.
+    ///
+    /// # Errors
+    ///
+    /// Never for a scene of [`SHIPPED`]: a test loads them all.
+    pub fn load(self) -> Result<Loaded, Diagnostics> {
+        Scene::parse(self.text, format!("{}.ron", self.name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn the_table_is_the_folder() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/planar");
+        let entries = fs::read_dir(folder).expect("the folder of shipped scenes exists");
+        let mut files: Vec<String> =
+            entries.map(|entry| entry.expect("readable").file_name().into_string().expect("a plain name")).collect();
+        files.sort();
+        let table: Vec<String> = SHIPPED.iter().map(|scene| format!("{}.ron", scene.name)).collect();
+        assert_eq!(files, table, "add the new scene to the table, in alphabetical order");
+    }
+
+    #[test]
+    fn every_shipped_scene_loads() {
+        for scene in SHIPPED {
+            if let Err(mistakes) = scene.load() {
+                panic!("{mistakes}");
+            }
+        }
+        assert!(Shipped::named(DEFAULT_SCENE).is_some());
+    }
+
+    #[test]
+    fn a_slip_leads_to_the_scene_that_was_meant() {
+        assert_eq!(Shipped::nearest("homework_rod"), Some("homework_rods"));
+        assert_eq!(Shipped::nearest("zebra"), None);
+    }
+}
