@@ -38,7 +38,8 @@ impl Run<'_> {
         let [one, other] = event.bodies();
         let (one, other) = (self.bodies(one)?, self.bodies(other)?);
         let is_meant = |touch: &&Touch| {
-            (one.contains(&touch.a) && other.contains(&touch.b)) || (one.contains(&touch.b) && other.contains(&touch.a))
+            let is = |bodies: &[usize], body| bodies.binary_search(&body).is_ok();
+            (is(&one, touch.a) && is(&other, touch.b)) || (is(&one, touch.b) && is(&other, touch.a))
         };
         let touches: Vec<&Touch> = self.timeline.recording.touches.iter().filter(is_meant).collect();
         let mut times = Vec::new();

@@ -38,7 +38,9 @@ impl Run<'_> {
             let (measured, expected) = match (e.is, expected(e)) {
                 (TargetForce::Newtons(_), Some(expected)) => (Measured::Number(force.length()), expected),
                 (_, Some(expected)) => (Measured::Vector(force), expected),
-                (_, None) => (Measured::Vector(force), Expected::Vector { is: self.support(body)?, within: e.within }),
+                (_, None) => {
+                    (Measured::Vector(force), Expected::Vector { is: self.support(body, &e.on)?, within: e.within })
+                }
             };
             Ok((measured, expected))
         })
@@ -61,7 +63,7 @@ impl Run<'_> {
         compare: impl Fn(usize, DVec2) -> Result<(Measured, Expected), NotMeasured>,
     ) -> Result<Finding, NotMeasured> {
         let by = forces.by.map(|name| self.bodies(name)).transpose()?;
-        let acts = |other: usize| by.as_ref().is_none_or(|bodies| bodies.contains(&other));
+        let acts = |other: usize| by.as_ref().is_none_or(|bodies| bodies.binary_search(&other).is_ok());
         let mut found = Vec::new();
         for body in self.bodies(forces.on)? {
             let force_in = |sample: &Sample| -> Result<DVec2, NotMeasured> {
@@ -103,19 +105,20 @@ impl Run<'_> {
         if count == 0.0 { Err(NotMeasured::EmptyWindow) } else { Ok(ForceAt { force: sum / count, time: None }) }
     }
 
-    /// The force that carries a body: the opposite of gravity on it [N].
-    fn support(&self, body: usize) -> Result<DVec2, NotMeasured> {
+    /// The force that carries a body, which the scene calls `name`: the opposite of gravity on it [N].
+    fn support(&self, body: usize, name: &str) -> Result<DVec2, NotMeasured> {
         let record = &self.timeline.recording.bodies[body];
         if record.kind != BodyKind::Dynamic {
             return Err(NotMeasured::NoWeight { body: record.name.clone() });
         }
-        let entry =
-            self.entry_of(&record.name).ok_or_else(|| NotMeasured::UnknownBody { name: record.name.clone() })?;
+        let entry = self.entry_of(name).ok_or_else(|| NotMeasured::UnknownBody { name: name.to_owned() })?;
         Ok(-self.scene.gravity * entry.gravity_scale * record.mass)
     }
 
-    /// What the scene says about a single body.
+    /// What the scene says about a body, or about a family of copies.
     fn entry_of(&self, name: &str) -> Option<&BodyEntry> {
-        self.scene.bodies.iter().find(|entry| copies(entry).any(|copy| copy.name == name))
+        let mut entries = self.scene.bodies.iter();
+        let by_own_name = self.scene.bodies.iter().find(|entry| entry.name == name);
+        by_own_name.or_else(|| entries.find(|entry| copies(entry).any(|copy| copy.name == name)))
     }
 }

@@ -29,12 +29,15 @@ impl Judgement {
 }
 
 impl Finding {
-    pub fn holds(&self) -> bool {
-        self.judgement().holds
+    pub fn judgement(&self) -> Judgement {
+        Judgement::of(&self.measured, &self.expected)
     }
+}
 
-    fn judgement(&self) -> Judgement {
-        match (&self.expected, &self.measured) {
+impl Judgement {
+    /// Compares what was measured with what is right.
+    pub fn of(measured: &Measured, expected: &Expected) -> Self {
+        match (expected, measured) {
             (Expected::Number { near, above, below }, &Measured::Number(number)) => {
                 let claims = [
                     near.map(|near| is_near(number, near)),

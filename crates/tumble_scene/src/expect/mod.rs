@@ -27,16 +27,18 @@ mod world;
 #[cfg(test)]
 mod tests;
 
-use tumble_record::Recording;
+use std::collections::BTreeMap;
 
-use crate::format::{ContactModel, Expectation, Scene};
+use tumble_record::{BodyState, Recording};
+
+use crate::format::{ContactModel, Expectation, ScalarExpectation, Scene};
 use timeline::Timeline;
 
 pub use verdict::{Expected, Measured, Near, NotMeasured, Outcome, Status, Verdict};
 
 /// Compares every expectation of a scene with what was recorded under a contact model.
 pub fn evaluate(scene: &Scene, model: ContactModel, recording: &Recording) -> Verdict {
-    let run = Run { scene, timeline: Timeline::new(recording, scene.duration) };
+    let run = Run::new(scene, recording);
     let outcomes = scene.expect.iter().enumerate().map(|(index, expectation)| {
         let (because, _) = expectation.because_and_under();
         let mut outcome = Outcome {
@@ -68,26 +70,18 @@ pub fn evaluate(scene: &Scene, model: ContactModel, recording: &Recording) -> Ve
 /// What an expectation expects, as far as that does not depend on the run.
 fn expected(expectation: &Expectation) -> Option<Expected> {
     Some(match expectation {
-        Expectation::Position(e) | Expectation::Velocity(e) => Expected::Vector { is: e.is, within: e.within },
+        Expectation::Position(e) | Expectation::Velocity(e) => e.into(),
         Expectation::X(e)
         | Expectation::Y(e)
         | Expectation::VelocityX(e)
         | Expectation::VelocityY(e)
         | Expectation::Speed(e)
-        | Expectation::AngularVelocity(e) => {
-            Expected::Number { near: Near::of(e.is, e.within), above: e.above, below: e.below }
-        }
-        Expectation::Angle(e) => Expected::Number {
-            near: Near::of(e.is_degrees, e.within_degrees),
-            above: e.above_degrees,
-            below: e.below_degrees,
-        },
-        Expectation::AtRest(e) => {
-            Expected::Rest { speed_below: e.speed_below, turn_below: e.turn_below, drift_below: e.drift_below }
-        }
+        | Expectation::AngularVelocity(e) => e.into(),
+        Expectation::Angle(e) => e.into(),
+        Expectation::AtRest(e) => e.into(),
         Expectation::EnergyNeverRises(e) => Expected::AtMost(e.slack),
         Expectation::EnergyKept(_) | Expectation::MomentumKept(_) | Expectation::AngularMomentumKept(_) => return None,
-        Expectation::Depth(e) => Expected::Number { near: None, above: None, below: Some(e.below) },
+        Expectation::Depth(e) => e.into(),
         Expectation::ContactForceSum(e) => return force::expected(e),
         Expectation::FrictionForce(e) => Expected::near(e.is, e.within),
         Expectation::Order(_) => Expected::Order,
@@ -101,6 +95,8 @@ fn expected(expectation: &Expectation) -> Option<Expected> {
 struct Run<'r> {
     scene: &'r Scene,
     timeline: Timeline<'r>,
+    /// Index of each recorded body by its name.
+    index_of: BTreeMap<&'r str, usize>,
 }
 
 /// What was measured for one expectation, and what is right.
@@ -123,7 +119,7 @@ struct NamedFinding {
 impl Outcome {
     /// Judges what was found.
     fn take(&mut self, NamedFinding { finding, body }: NamedFinding) {
-        self.status = if finding.holds() { Status::Met } else { Status::Failed };
+        self.status = if finding.judgement().holds { Status::Met } else { Status::Failed };
         self.measured = Some(finding.measured);
         self.expected = Some(finding.expected);
         self.time = finding.time;
@@ -131,36 +127,61 @@ impl Outcome {
     }
 }
 
-impl Run<'_> {
+impl<'r> Run<'r> {
+    fn new(scene: &'r Scene, recording: &'r Recording) -> Self {
+        let mut index_of = BTreeMap::new();
+        for (index, name) in recording.body_names().enumerate() {
+            index_of.entry(name).or_insert(index);
+        }
+        Self { scene, timeline: Timeline::new(recording, scene.duration), index_of }
+    }
+
     fn measure(&self, expectation: &Expectation) -> Result<NamedFinding, NotMeasured> {
+        let when = expectation.when();
+        let number = |e: &ScalarExpectation, quantity: fn(&BodyState) -> f64| {
+            self.state(&e.of, when, e.into(), |state| Measured::Number(quantity(state)))
+        };
         let finding = match expectation {
-            Expectation::Order(e) => self.order(&e.events),
-            Expectation::Happens(e) => self.happens(e),
-            Expectation::Never(e) => self.never(&e.event),
-            Expectation::ContactForceSum(e) => self.contact_force_sum(e, expectation.when()),
-            Expectation::FrictionForce(e) => self.friction_force(e, expectation.when()),
+            Expectation::Position(e) => self.state(&e.of, when, e.into(), |state| Measured::Vector(state.position)),
+            Expectation::X(e) => number(e, |state| state.position.x),
+            Expectation::Y(e) => number(e, |state| state.position.y),
+            Expectation::Angle(e) => {
+                self.state(&e.of, when, e.into(), |state| Measured::Number(state.angle.to_degrees()))
+            }
+            Expectation::Velocity(e) => self.state(&e.of, when, e.into(), |state| Measured::Vector(state.velocity)),
+            Expectation::VelocityX(e) => number(e, |state| state.velocity.x),
+            Expectation::VelocityY(e) => number(e, |state| state.velocity.y),
+            Expectation::Speed(e) => number(e, |state| state.velocity.length()),
+            Expectation::AngularVelocity(e) => number(e, |state| state.angular_velocity),
             Expectation::AtRest(e) => self.at_rest(e),
             Expectation::EnergyNeverRises(e) => self.energy_never_rises(e.slack),
             Expectation::EnergyKept(e) => self.energy_kept(e.within),
             Expectation::MomentumKept(e) => self.momentum_kept(e.within),
             Expectation::AngularMomentumKept(e) => self.angular_momentum_kept(e.within),
-            Expectation::Depth(e) => self.depth(e.below, expectation.when()),
+            Expectation::Depth(e) => self.depth(e, when),
+            Expectation::ContactForceSum(e) => self.contact_force_sum(e, when),
+            Expectation::FrictionForce(e) => self.friction_force(e, when),
+            Expectation::Order(e) => self.order(&e.events),
+            Expectation::Happens(e) => self.happens(e),
+            Expectation::Never(e) => self.never(&e.event),
             Expectation::Fingerprint(e) => self.fingerprint(&e.is),
-            _ => self.state(expectation),
         }?;
         let body = finding.body.map(|index| self.timeline.recording.bodies[index].name.clone());
         Ok(NamedFinding { finding, body })
     }
 
-    /// Indices of the bodies that a name means; at least one.
+    /// Indices of the bodies that a name means, ascending; at least one.
     fn bodies(&self, name: &str) -> Result<Vec<usize>, NotMeasured> {
-        let recording = self.timeline.recording;
-        let names = self.scene.names_meant_by(name);
-        let found: Result<Vec<usize>, NotMeasured> =
-            names.into_iter().map(|name| recording.body(&name).ok_or(NotMeasured::UnknownBody { name })).collect();
-        match found? {
-            bodies if bodies.is_empty() => Err(NotMeasured::UnknownBody { name: name.to_owned() }),
-            bodies => Ok(bodies),
+        let names = self.scene.names_meant_by(name).into_iter();
+        let indices = names.map(|name| match self.index_of.get(name.as_str()) {
+            Some(index) => Ok(*index),
+            None => Err(NotMeasured::UnknownBody { name }),
+        });
+        let mut bodies = indices.collect::<Result<Vec<usize>, NotMeasured>>()?;
+        if bodies.is_empty() {
+            return Err(NotMeasured::UnknownBody { name: name.to_owned() });
         }
+        bodies.sort_unstable();
+        Ok(bodies)
     }
 }

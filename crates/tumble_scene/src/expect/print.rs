@@ -4,8 +4,18 @@ use std::fmt;
 
 use glam::DVec2;
 
+use super::judge::Judgement;
 use super::{Expected, Measured, Near, Outcome, Status, Verdict};
 use crate::format::{Event, Expectation, When};
+
+/// Parts of a tolerance that printed digits show [1].
+const TOLERANCE_PARTS: f64 = 100.0;
+
+/// Parts of the distance from a limit that printed digits show [1].
+const LIMIT_PARTS: f64 = 10.0;
+
+/// Error that printed times may have [s].
+const TIME_RESOLUTION: f64 = 1e-5;
 
 /// What is expected of whom and when: `Speed of "box" at 2 s`.
 pub(super) fn title(expectation: &Expectation) -> String {
@@ -104,19 +114,18 @@ impl fmt::Display for Status {
 impl fmt::Display for Outcome {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{:<7} {}: ", self.status, self.name)?;
-        let tolerance = self.expected.as_ref().and_then(Expected::tolerance);
         match (&self.measured, &self.obstacle) {
             (Some(measured), _) => {
-                write!(formatter, "{}", measured_text(measured, self.unit, tolerance))?;
+                write!(formatter, "{}", measured_text(measured, self.unit, self.resolution()))?;
                 // The worst of many is named; what the title says already is not.
                 if let Some(body) = self.body.as_ref().filter(|body| !self.name.contains(&format!("\"{body}\""))) {
                     write!(formatter, " of \"{body}\"")?;
                 }
-                if let Some(time) = self.time.map(|time| number(time, Some(1e-3)))
+                if let Some(time) = self.time.map(seconds)
                     && self.names_its_time()
-                    && !self.name.ends_with(&format!(" at {time} s"))
+                    && !self.name.ends_with(&format!(" at {time}"))
                 {
-                    write!(formatter, " at {time} s")?;
+                    write!(formatter, " at {time}")?;
                 }
             }
             (None, Some(obstacle)) => write!(formatter, "{obstacle}")?,
@@ -133,23 +142,30 @@ impl fmt::Display for Outcome {
 }
 
 impl Outcome {
+    /// The error that printing may make: it shows parts of the tolerance, and on which side of the limit a number is.
+    fn resolution(&self) -> f64 {
+        let (Some(measured), Some(expected)) = (&self.measured, &self.expected) else { return f64::INFINITY };
+        let tolerance = expected.tolerance().unwrap_or(f64::INFINITY);
+        let from_limit = Judgement::of(measured, expected).badness.abs();
+        (tolerance / TOLERANCE_PARTS).min(from_limit / LIMIT_PARTS)
+    }
+
     /// Whether what was measured is not a time itself, so that its time is worth a word.
     fn names_its_time(&self) -> bool {
         !matches!(self.expected, Some(Expected::Never | Expected::Order | Expected::Fingerprint(_))) && self.unit != "s"
     }
 }
 
-fn measured_text(measured: &Measured, unit: &str, tolerance: Option<f64>) -> String {
+fn measured_text(measured: &Measured, unit: &str, resolution: f64) -> String {
     match measured {
-        Measured::Number(value) => format!("{} {unit}", number(*value, tolerance)),
-        Measured::Vector(value) => format!("{} {unit}", vector(*value, tolerance)),
+        Measured::Number(value) => format!("{} {unit}", number(*value, resolution)),
+        Measured::Vector(value) => format!("{} {unit}", vector(*value, resolution)),
         Measured::Rest { speed, turn, drift } => {
-            let [speed, turn, drift] = [speed, turn, drift].map(|value| number(*value, None));
-            format!("{speed} m/s, {turn} rad/s, {drift} m away")
+            let [speed, turn, drift] = [speed, turn, drift].map(|value| number(*value, f64::INFINITY));
+            format!("{speed} m/s, {turn} rad/s, drift {drift} m")
         }
         Measured::Times(times) => {
-            let word =
-                |time: &Option<f64>| time.map_or("never".to_owned(), |time| format!("{} s", number(time, Some(1e-3))));
+            let word = |time: &Option<f64>| time.map_or("never".to_owned(), seconds);
             times.iter().map(word).collect::<Vec<_>>().join(", ")
         }
         Measured::Fingerprint(fingerprint) => fingerprint.to_string(),
@@ -159,16 +175,20 @@ fn measured_text(measured: &Measured, unit: &str, tolerance: Option<f64>) -> Str
 fn expected_text(expected: &Expected) -> String {
     match expected {
         Expected::Number { near, above, below } => {
-            let near = near.map(|Near { is, within }| format!("{} ± {}", number(is, Some(within)), as_written(within)));
+            let near = near.map(|Near { is, within }| {
+                format!("{} ± {}", number(is, within / TOLERANCE_PARTS), as_written(within))
+            });
             let above = above.map(|bound| format!("above {}", as_written(bound)));
             let below = below.map(|bound| format!("below {}", as_written(bound)));
             [near, above, below].into_iter().flatten().collect::<Vec<_>>().join(" and ")
         }
         Expected::AtMost(bound) => format!("at most {}", as_written(*bound)),
-        Expected::Vector { is, within } => format!("{} ± {}", vector(*is, Some(*within)), as_written(*within)),
+        Expected::Vector { is, within } => {
+            format!("{} ± {}", vector(*is, within / TOLERANCE_PARTS), as_written(*within))
+        }
         Expected::Rest { speed_below, turn_below, drift_below } => {
             let [speed, turn] = [*speed_below, *turn_below].map(as_written);
-            let drift = drift_below.map_or_else(String::new, |bound| format!(", below {} m", as_written(bound)));
+            let drift = drift_below.map_or_else(String::new, |bound| format!(", drift below {} m", as_written(bound)));
             format!("below {speed} m/s, below {turn} rad/s{drift}")
         }
         Expected::Order => "in this order".to_owned(),
@@ -177,13 +197,19 @@ fn expected_text(expected: &Expected) -> String {
     }
 }
 
-fn vector(value: DVec2, tolerance: Option<f64>) -> String {
-    format!("({}, {})", number(value.x, tolerance), number(value.y, tolerance))
+fn vector(value: DVec2, resolution: f64) -> String {
+    format!("({}, {})", number(value.x, resolution), number(value.y, resolution))
+}
+
+/// A time.
+pub(super) fn seconds(time: f64) -> String {
+    format!("{} s", number(time, TIME_RESOLUTION))
 }
 
 /// All digits of a number.
 fn as_written(value: f64) -> String {
-    if is_plain(value) { format!("{value}") } else { format!("{value:e}") }
+    // Adding zero drops the sign of a zero.
+    if is_plain(value) { format!("{}", value + 0.0) } else { format!("{value:e}") }
 }
 
 /// Whether a number reads well without an exponent.
@@ -191,17 +217,11 @@ fn is_plain(value: f64) -> bool {
     value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs())
 }
 
-/// A number with five digits, or as many as show a hundredth of the tolerance; all of them for tolerance 0.
-fn number(value: f64, tolerance: Option<f64>) -> String {
+/// A number with five digits, or as many as it takes to err by no more than the resolution.
+fn number(value: f64, resolution: f64) -> String {
     const FEWEST_DIGITS: usize = 5;
     const MOST_DIGITS: usize = 17;
-    let resolution = tolerance.unwrap_or(f64::INFINITY) / 100.0;
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    // The shortest rounding that is near enough.
-    let rounded = (FEWEST_DIGITS..=MOST_DIGITS)
-        .filter_map(|digits| format!("{value:.*e}", digits - 1).parse::<f64>().ok())
-        .find(|rounded| (rounded - value).abs() <= resolution);
-    as_written(rounded.unwrap_or(value))
+    let roundings = (FEWEST_DIGITS..MOST_DIGITS).filter_map(|digits| format!("{value:.*e}", digits - 1).parse().ok());
+    let near_enough = |rounded: &f64| (rounded - value).abs() <= resolution;
+    as_written(roundings.into_iter().find(near_enough).unwrap_or(value))
 }

@@ -3,50 +3,23 @@
 use tumble_record::{BodyKind, BodyState};
 
 use super::judge::worst;
-use super::{Expected, Finding, Measured, NotMeasured, Run, expected};
-use crate::format::{AtRestExpectation, Expectation, When};
-
-/// The quantity that an expectation of a state speaks about.
-fn quantity(expectation: &Expectation, state: &BodyState) -> Option<Measured> {
-    Some(match expectation {
-        Expectation::Position(_) => Measured::Vector(state.position),
-        Expectation::X(_) => Measured::Number(state.position.x),
-        Expectation::Y(_) => Measured::Number(state.position.y),
-        Expectation::Angle(_) => Measured::Number(state.angle.to_degrees()),
-        Expectation::Velocity(_) => Measured::Vector(state.velocity),
-        Expectation::VelocityX(_) => Measured::Number(state.velocity.x),
-        Expectation::VelocityY(_) => Measured::Number(state.velocity.y),
-        Expectation::Speed(_) => Measured::Number(state.velocity.length()),
-        Expectation::AngularVelocity(_) => Measured::Number(state.angular_velocity),
-        _ => return None,
-    })
-}
-
-/// The body that an expectation of a state speaks about.
-fn body_of(expectation: &Expectation) -> Option<&str> {
-    match expectation {
-        Expectation::Position(e) | Expectation::Velocity(e) => Some(&e.of),
-        Expectation::X(e)
-        | Expectation::Y(e)
-        | Expectation::VelocityX(e)
-        | Expectation::VelocityY(e)
-        | Expectation::Speed(e)
-        | Expectation::AngularVelocity(e) => Some(&e.of),
-        Expectation::Angle(e) => Some(&e.of),
-        _ => None,
-    }
-}
+use super::{Expected, Finding, Measured, NotMeasured, Run};
+use crate::format::{AtRestExpectation, When};
 
 impl Run<'_> {
-    /// Position, angle and velocity, and parts of them.
-    pub(super) fn state(&self, expectation: &Expectation) -> Result<Finding, NotMeasured> {
-        let (Some(name), Some(expected)) = (body_of(expectation), expected(expectation)) else {
-            unreachable!("only states are measured here")
-        };
-        let when = expectation.when();
-        let finding = |body, state: &BodyState, time| {
-            let measured = quantity(expectation, state).expect("only states are measured here");
-            Finding { measured, expected: expected.clone(), time: Some(time), body: Some(body) }
+    /// A quantity of a body's state.
+    pub(super) fn state(
+        &self,
+        name: &str,
+        when: When,
+        expected: Expected,
+        quantity: impl Fn(&BodyState) -> Measured,
+    ) -> Result<Finding, NotMeasured> {
+        let finding = |body, state: &BodyState, time| Finding {
+            measured: quantity(state),
+            expected: expected.clone(),
+            time: Some(time),
+            body: Some(body),
         };
         let mut found = Vec::new();
         for body in self.bodies(name)? {
@@ -56,10 +29,9 @@ impl Run<'_> {
                     found.push(finding(body, &at.state, at.time));
                 }
                 When::Throughout { .. } => {
-                    let findings = self
-                        .timeline
-                        .samples(when)
-                        .map(|sample| Ok(finding(body, self.timeline.state(sample, body)?, sample.time)));
+                    let samples = self.timeline.samples(when);
+                    let findings =
+                        samples.map(|sample| Ok(finding(body, self.timeline.state(sample, body)?, sample.time)));
                     found.extend(worst(findings.collect::<Result<Vec<_>, _>>()?));
                 }
             }
@@ -70,8 +42,6 @@ impl Run<'_> {
     /// Rest of one body, or of every dynamic body while it is in the world.
     pub(super) fn at_rest(&self, e: &AtRestExpectation) -> Result<Finding, NotMeasured> {
         let when = When::Throughout { from: e.from, until: f64::INFINITY };
-        let expected =
-            Expected::Rest { speed_below: e.speed_below, turn_below: e.turn_below, drift_below: e.drift_below };
         let recording = self.timeline.recording;
         let bodies = match &e.of {
             Some(name) => self.bodies(name)?,
@@ -98,12 +68,7 @@ impl Run<'_> {
                     turn: state.angular_velocity.abs(),
                     drift: (state.position - start).length(),
                 };
-                findings.push(Finding {
-                    measured,
-                    expected: expected.clone(),
-                    time: Some(sample.time),
-                    body: Some(body),
-                });
+                findings.push(Finding { measured, expected: e.into(), time: Some(sample.time), body: Some(body) });
             }
             found.extend(worst(findings));
         }

@@ -58,7 +58,7 @@ impl<'r> Timeline<'r> {
     /// Passes on a failure at once, and anything else only if the window was over when the recording ended.
     pub fn conclude(&self, finding: Option<Finding>, when: When) -> Result<Finding, NotMeasured> {
         if let Some(finding) = &finding
-            && !finding.holds()
+            && !finding.judgement().holds
         {
             return Ok(finding.clone());
         }
@@ -86,12 +86,12 @@ impl<'r> Timeline<'r> {
         self.reach(step)?;
         let samples = &self.recording.samples;
         let next = samples.partition_point(|sample| sample.step < step);
-        if samples[next].step == step {
-            return Ok(StateAt { state: *self.state(&samples[next], body)?, time: samples[next].time });
+        let after = &samples[next];
+        if after.step == step {
+            return Ok(StateAt { state: *self.state(after, body)?, time: after.time });
         }
         // A recording that begins later than asked has nothing before.
         let before = next.checked_sub(1).map(|index| &samples[index]).ok_or(NotMeasured::EmptyWindow)?;
-        let after = &samples[next];
         let share = (step - before.step) as f64 / (after.step - before.step) as f64;
         let state = interpolate(self.state(before, body)?, self.state(after, body)?, share);
         Ok(StateAt { state, time: before.time + share * (after.time - before.time) })
@@ -113,18 +113,25 @@ impl<'r> Timeline<'r> {
         moved.min_by_key(|sample| sample.step.abs_diff(step)).ok_or(NotMeasured::EmptyWindow)
     }
 
+    /// The audit rows; refused if they do not go as far as the samples.
+    pub fn audits(&self) -> Result<&'r [AuditRow], NotMeasured> {
+        let end = self.recording.samples.last().ok_or(NotMeasured::NothingRecorded)?;
+        let rows = &self.recording.audit;
+        if rows.last().is_some_and(|row| row.step >= end.step) { Ok(rows) } else { Err(NotMeasured::NoAudit) }
+    }
+
+    /// The first audit row.
+    pub fn audit_of_start(&self) -> Result<&'r AuditRow, NotMeasured> {
+        self.audits()?.first().ok_or(NotMeasured::NoAudit)
+    }
+
     /// The audit row of the step nearest to a time.
     pub fn audit_at(&self, time: f64) -> Result<&'r AuditRow, NotMeasured> {
         let step = self.nearest_step(time);
         self.reach(step)?;
-        let rows = &self.recording.audit;
+        let rows = self.audits()?;
         let index = rows.binary_search_by_key(&step, |row| row.step).map_err(|_| NotMeasured::NoAudit)?;
         Ok(&rows[index])
-    }
-
-    /// The first audit row, of the start.
-    pub fn first_audit(&self) -> Result<&'r AuditRow, NotMeasured> {
-        self.recording.audit.first().ok_or(NotMeasured::NoAudit)
     }
 }
 

@@ -3,6 +3,9 @@
 use glam::DVec2;
 use tumble_record::Fingerprint;
 
+use super::print::seconds;
+use crate::format::{AngleExpectation, AtRestExpectation, DepthExpectation, ScalarExpectation, VectorExpectation};
+
 /// What came of all expectations of a scene, in their order; its `Display` is one line for each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verdict {
@@ -114,7 +117,7 @@ pub struct Near {
 
 impl Near {
     /// A value without tolerance must be hit exactly; validation has refused such scenes.
-    pub(super) fn of(is: Option<f64>, within: Option<f64>) -> Option<Self> {
+    fn of(is: Option<f64>, within: Option<f64>) -> Option<Self> {
         is.map(|is| Self { is, within: within.unwrap_or(0.0) })
     }
 }
@@ -189,17 +192,48 @@ impl Expected {
     }
 }
 
+impl From<&VectorExpectation> for Expected {
+    fn from(e: &VectorExpectation) -> Self {
+        Self::Vector { is: e.is, within: e.within }
+    }
+}
+
+impl From<&ScalarExpectation> for Expected {
+    fn from(e: &ScalarExpectation) -> Self {
+        Self::Number { near: Near::of(e.is, e.within), above: e.above, below: e.below }
+    }
+}
+
+impl From<&AngleExpectation> for Expected {
+    fn from(e: &AngleExpectation) -> Self {
+        let near = Near::of(e.is_degrees, e.within_degrees);
+        Self::Number { near, above: e.above_degrees, below: e.below_degrees }
+    }
+}
+
+impl From<&AtRestExpectation> for Expected {
+    fn from(e: &AtRestExpectation) -> Self {
+        Self::Rest { speed_below: e.speed_below, turn_below: e.turn_below, drift_below: e.drift_below }
+    }
+}
+
+impl From<&DepthExpectation> for Expected {
+    fn from(e: &DepthExpectation) -> Self {
+        Self::Number { near: None, above: None, below: Some(e.below) }
+    }
+}
+
 /// Why an expectation could not be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NotMeasured {
     /// The recording ends before the time, or before a window is over.
-    #[error("not reached: the recording ends at {end} s")]
+    #[error("not reached, the recording ends at {}", seconds(*end))]
     NotReached {
         /// Time of the last sample [s].
         end: f64,
     },
     /// Nothing was recorded.
-    #[error("not reached: nothing was recorded")]
+    #[error("not reached, nothing was recorded")]
     NothingRecorded,
     /// No sample lies in the window.
     #[error("no sample lies in the window")]
@@ -217,7 +251,7 @@ pub enum NotMeasured {
     #[error("there is no dynamic body")]
     NoDynamicBody,
     /// A body is not in the world at a time when it is needed.
-    #[error("\"{body}\" is not in the world at {time} s")]
+    #[error("\"{body}\" is not in the world at {}", seconds(*time))]
     BodyAbsent {
         /// Name of the body.
         body: String,
@@ -231,7 +265,7 @@ pub enum NotMeasured {
         body: String,
     },
     /// An event did not happen as often as it should.
-    #[error("not reached: it happened {times} times")]
+    #[error("not reached, it happened only {times}×")]
     TooFewEvents {
         /// How often it happened.
         times: usize,

@@ -4,7 +4,7 @@ use tumble_record::AuditRow;
 
 use super::judge::worst;
 use super::{Expected, Finding, Measured, NotMeasured, Run};
-use crate::format::When;
+use crate::format::{DepthExpectation, When};
 
 /// From the start to the end.
 const WHOLE_RUN: When = When::Throughout { from: 0.0, until: f64::INFINITY };
@@ -12,7 +12,7 @@ const WHOLE_RUN: When = When::Throughout { from: 0.0, until: f64::INFINITY };
 impl Run<'_> {
     /// Largest rise of the total energy above its lowest value so far [J].
     pub(super) fn energy_never_rises(&self, slack: f64) -> Result<Finding, NotMeasured> {
-        let mut lowest = self.timeline.first_audit()?.total;
+        let mut lowest = self.timeline.audit_of_start()?.total;
         self.worst_row(WHOLE_RUN, Expected::AtMost(slack), |row| {
             // `f64::min` passes over what is not a number; the difference does not.
             lowest = lowest.min(row.total);
@@ -22,35 +22,31 @@ impl Run<'_> {
 
     /// Total energy against that of the start [J].
     pub(super) fn energy_kept(&self, within: f64) -> Result<Finding, NotMeasured> {
-        let expected = Expected::near(self.timeline.first_audit()?.total, within);
+        let expected = Expected::near(self.timeline.audit_of_start()?.total, within);
         self.worst_row(WHOLE_RUN, expected, |row| Measured::Number(row.total))
     }
 
     /// Total momentum against that of the start [kg·m/s].
     pub(super) fn momentum_kept(&self, within: f64) -> Result<Finding, NotMeasured> {
-        let expected = Expected::Vector { is: self.timeline.first_audit()?.momentum, within };
+        let expected = Expected::Vector { is: self.timeline.audit_of_start()?.momentum, within };
         self.worst_row(WHOLE_RUN, expected, |row| Measured::Vector(row.momentum))
     }
 
     /// Angular momentum about the origin against that of the start [kg·m²/s].
     pub(super) fn angular_momentum_kept(&self, within: f64) -> Result<Finding, NotMeasured> {
-        let expected = Expected::near(self.timeline.first_audit()?.angular_momentum, within);
+        let expected = Expected::near(self.timeline.audit_of_start()?.angular_momentum, within);
         self.worst_row(WHOLE_RUN, expected, |row| Measured::Number(row.angular_momentum))
     }
 
     /// Deepest overlap of any two bodies [m].
-    pub(super) fn depth(&self, below: f64, when: When) -> Result<Finding, NotMeasured> {
-        let expected = Expected::Number { near: None, above: None, below: Some(below) };
+    pub(super) fn depth(&self, e: &DepthExpectation, when: When) -> Result<Finding, NotMeasured> {
         let measured = |row: &AuditRow| Measured::Number(row.deepest_overlap);
         match when {
             When::At(time) => {
                 let row = self.timeline.audit_at(time)?;
-                Ok(Finding { measured: measured(row), expected, time: Some(row.time), body: None })
+                Ok(Finding { measured: measured(row), expected: e.into(), time: Some(row.time), body: None })
             }
-            When::Throughout { .. } => {
-                self.timeline.first_audit()?;
-                self.worst_row(when, expected, measured)
-            }
+            When::Throughout { .. } => self.worst_row(when, e.into(), measured),
         }
     }
 
@@ -61,7 +57,7 @@ impl Run<'_> {
         expected: Expected,
         mut measure: impl FnMut(&AuditRow) -> Measured,
     ) -> Result<Finding, NotMeasured> {
-        let rows = self.timeline.recording.audit.iter().filter(|row| self.timeline.contains(when, row.time));
+        let rows = self.timeline.audits()?.iter().filter(|row| self.timeline.contains(when, row.time));
         let findings = rows.map(|row| Finding {
             measured: measure(row),
             expected: expected.clone(),
