@@ -85,12 +85,16 @@ impl Default for SpringDamperSettings {
 /// Settings of the impulse model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImpulseSettings {
-    /// Most sweeps of the velocity filter, and of the position filter, per step [1]. Default 50: more settles tall stacks sooner.
-    pub iterations: u32,
+    /// Most sweeps of the velocity filter, and of the position filter, per step [1].
+    ///
+    /// Default as many as keep each of them near 50 000 single points, but at least 10 and at most 500: small scenes are solved to the
+    /// tolerance, and large ones take several steps to settle. More settles tall stacks sooner.
+    pub iterations: Option<u32>,
     /// A sweep that changes no point's speed by more than this is the last [m/s per length scale]. Default 1e-12.
     pub tolerance: f64,
-    /// A point that approaches faster than this is colliding [m/s]. Default the larger of 1e-9 length scales per second and a
-    /// hundredth of what gravity adds in a step: slower approaches are left to the velocity filter of the next step.
+    /// A point that approaches faster than this is colliding [m/s]. Default 1e-9 length scales per second, and besides a hundredth
+    /// of what gravity adds along the normal in a step (half of it for pairs without restitution): slower approaches are left to
+    /// the velocity filter of the next step.
     pub colliding_above: Option<f64>,
     /// Most one-by-one impulses per step and contact point, on average [1]. Default 50.
     pub impulses_per_contact: u32,
@@ -100,7 +104,7 @@ pub struct ImpulseSettings {
 
 impl Default for ImpulseSettings {
     fn default() -> Self {
-        Self { iterations: 50, tolerance: 1e-12, colliding_above: None, impulses_per_contact: 50, recovery: 0.2 }
+        Self { iterations: None, tolerance: 1e-12, colliding_above: None, impulses_per_contact: 50, recovery: 0.2 }
     }
 }
 
@@ -149,10 +153,22 @@ impl<D: Dim> Settings<D> {
         self.slop.unwrap_or(0.005 * self.length_scale)
     }
 
-    /// A point that approaches faster than this is colliding [m/s].
+    /// Speed that gravity adds along a normal in half a step [m/s].
+    ///
+    /// Slower than this is rest: a rebound would not leave the surface within the step.
+    pub fn rest_speed(&self, normal: D::Vector) -> f64 {
+        0.5 * self.gravity.dot(normal).abs() * self.dt
+    }
+
+    /// A point that approaches faster than this is colliding, unless [`rest_speed`](Self::rest_speed) says otherwise [m/s].
     pub fn colliding_above(&self) -> f64 {
-        let default = || (1e-9 * self.length_scale).max(1e-2 * self.gravity.length() * self.dt);
-        self.impulse.colliding_above.unwrap_or_else(default)
+        self.impulse.colliding_above.unwrap_or(1e-9 * self.length_scale)
+    }
+
+    /// Most sweeps over `rows` contact points [1].
+    pub fn sweeps(&self, rows: usize) -> u32 {
+        let budget = || (50_000 / rows.max(1)).clamp(10, 500) as u32;
+        self.impulse.iterations.unwrap_or_else(budget)
     }
 
     /// Farthest travel within a step against which contacts are made beforehand [m].

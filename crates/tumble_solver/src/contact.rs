@@ -44,6 +44,8 @@ pub struct ContactRow<D: Dim> {
     pub arm_b: D::Vector,
     /// Gap, negative when overlapping [m].
     pub separation: f64,
+    /// Speed at which the velocity filter lets the gap close; 0 for a point that touches [m/s].
+    pub allowance: f64,
     /// Friction and restitution of the pair.
     pub surface: Surface,
     /// Impulse of the present solve; on entry the one to begin with (warm starting) [N·s].

@@ -5,7 +5,7 @@
 //! what it gave too much of, as long as its sum pushes and never pulls.
 //!
 //! ```text
-//! 0 ≤ λ_n ⟂ v_n ≥ 0
+//! 0 ≤ λ_n ⟂ v_n + u ≥ 0         u = gap/Δt for a resting point whose gap may still close, 0 for one that touches
 //! sticking:  v_t = 0,                   |λ_t| ≤ μ_s λ_n
 //! sliding:   λ_t = −μ_k λ_n v_t/|v_t|
 //! ```
@@ -26,7 +26,7 @@ use crate::{ContactRow, Ending, Report, Slip, SolverBody};
 /// How long to sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilterSettings {
-    /// Most sweeps over all points, per stage [1].
+    /// Most sweeps over all points; half as many again where points break away [1].
     pub iterations: u32,
     /// A sweep that changes no point's speed by more than this is the last [m/s].
     pub tolerance: f64,
@@ -64,7 +64,9 @@ pub fn filter_velocities<D: Dim>(
             any_broke_away = true;
         }
     }
-    let second = any_broke_away.then(|| sweep_until_still(bodies, rows, prepared, settings));
+    // The second stage begins near its answer.
+    let again = FilterSettings { iterations: settings.iterations.div_ceil(2), ..*settings };
+    let second = any_broke_away.then(|| sweep_until_still(bodies, rows, prepared, &again));
     for row in rows.iter_mut().filter(|row| row.slip == Slip::Sliding) {
         if !slips(row, bodies, row.surface.kinetic_friction, settings.tolerance) {
             row.slip = Slip::Sticking;
@@ -121,7 +123,7 @@ fn sweep_until_still<D: Dim>(
 fn solve_point<D: Dim>(bodies: &mut [SolverBody<D>], row: &mut ContactRow<D>, prepared: &PreparedRow<D>) -> f64 {
     let PreparedRow { compliance, inverse_diagonal } = prepared;
     let velocity = row.relative_velocity(bodies);
-    let normal = (row.impulse[0] - velocity[0] * inverse_diagonal[0]).max(0.0);
+    let normal = (row.impulse[0] - (velocity[0] + row.allowance) * inverse_diagonal[0]).max(0.0);
     // K says what the normal change does to the slip, so the bodies need to be asked only once.
     let velocity = velocity + compliance.column(0) * (normal - row.impulse[0]);
 

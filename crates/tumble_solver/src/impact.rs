@@ -41,8 +41,11 @@ pub struct Approach {
     pub half_step: f64,
     /// A rebound no faster than this would not leave the surface within the step, and is rest [m/s].
     pub rest_below: f64,
-    /// Approach speed that is no collision but the error of an earlier solver: the point is colliding only beyond it [m/s].
+    /// Approach speed that is no collision but the error of an earlier solver: until its first impulse, the point is colliding only
+    /// beyond it [m/s].
     pub ignored: f64,
+    /// The point is colliding when it approaches faster than this, besides [`ImpactSettings::colliding_above`] [m/s].
+    pub threshold: f64,
 }
 
 /// Resolves all colliding contacts of `rows`.
@@ -61,7 +64,7 @@ pub fn resolve_one_by_one<D: Dim>(
     let mut report = Report::default();
     // Points that are not colliding are all alike to the queue, so that most changes of speed leave it as it is.
     let excess = |bodies: &[SolverBody<D>], i: usize, approach: &Approach| {
-        (-rows[i].separating_speed(bodies) - approach.ignored - settings.colliding_above).max(0.0)
+        (-rows[i].separating_speed(bodies) - approach.ignored - approach.threshold - settings.colliding_above).max(0.0)
     };
     let mut queue = Tournament::of(rows.iter().enumerate().map(|(i, _)| excess(bodies, i, &approaches[i])));
     if queue.best().is_none_or(|(_, excess)| excess <= 0.0) {
@@ -87,14 +90,17 @@ pub fn resolve_one_by_one<D: Dim>(
             queue.update(i, excess(bodies, i, &approaches[i]));
         }
     }
-    let left = |(row, approach): (&ContactRow<D>, &Approach)| -row.separating_speed(bodies) - approach.ignored;
+    let left = |(row, approach): (&ContactRow<D>, &Approach)| {
+        -row.separating_speed(bodies) - approach.ignored - approach.threshold
+    };
     report.residual = rows.iter().zip(approaches.iter()).map(left).fold(0.0, f64::max);
     report
 }
 
 /// Separating speed after an impact at `approach` speed; uses up the correction [m/s].
 fn rebound_speed(approach: f64, restitution: f64, reading: &mut Approach) -> f64 {
-    let Approach { correction, half_step, rest_below, .. } = std::mem::take(reading);
+    let Approach { correction, half_step, rest_below, threshold, .. } = *reading;
+    *reading = Approach { threshold, ..Approach::default() };
     let rebound = restitution * (approach + correction).max(0.0);
     if rebound > rest_below { rebound + half_step } else { 0.0 }
 }

@@ -152,4 +152,3 @@ fn body_bound<D: Dim>(body: &SolverBody<D>, extent: f64) -> f64 {
         .fold(0.0, f64::max);
     translation + rotation
 }
-

@@ -58,10 +58,12 @@ impl<D: Dim> Displacements<D> {
         settings: &PositionSettings,
     ) -> bool {
         self.bodies.clear();
+        self.sums.clear();
         self.targets.clear();
         // What J Δx has to reach at least, for each point.
         self.targets.extend(
-            rows.iter().map(|row| allowed(row.separation, settings) - row.separation - dt * row.separating_speed(bodies)),
+            rows.iter()
+                .map(|row| allowed(row.separation, settings) - row.separation - dt * row.separating_speed(bodies)),
         );
         if self.targets.iter().all(|target| *target <= 0.0) {
             return false;
@@ -72,7 +74,6 @@ impl<D: Dim> Displacements<D> {
             body.velocity = D::Vector::ZERO;
             body.angular_velocity = D::Angular::ZERO;
         }
-        self.sums.clear();
         self.sums.resize(rows.len(), 0.0);
         for sweep in 0..settings.iterations {
             let mut moved: f64 = 0.0;
@@ -85,6 +86,11 @@ impl<D: Dim> Displacements<D> {
             }
         }
         true
+    }
+
+    /// Whether point i was held in the last call of [`find`](Self::find): without its push it would have gone too far.
+    pub fn holds(&self, i: usize) -> bool {
+        self.sums.get(i).is_some_and(|sum| *sum > 0.0)
     }
 
     /// Solves one point with all others as they are; returns how far it moved [m].

@@ -85,13 +85,14 @@ pub enum PenaltyLaw {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImpulseEntry {
-    /// Sweeps over the resting contacts in each step, at most [1].
+    /// Sweeps over the resting contacts in each step, at most [1]. Default between 10 and 500, fewer for more contacts.
     #[serde(default)]
     pub iterations: Option<u32>,
-    /// Approach speed above which a contact is colliding [m/s].
+    /// Approach speed above which a contact is colliding [m/s]. Default a hundredth of what gravity adds in a step, half of it for pairs
+    /// without restitution.
     #[serde(default)]
     pub colliding_tolerance: Option<f64>,
-    /// Impulses on colliding contacts in each step, at most, per contact [1].
+    /// Impulses on colliding contacts in each step, at most, per contact [1]. Default 50.
     #[serde(default)]
     pub max_impulses: Option<u32>,
 }

@@ -103,6 +103,9 @@ impl<D: Geometry> Detection<D> {
 
 /// Margin by which fat bounds exceed the travel of a step, in length scales: larger finds pairs anew less often.
 const FAT_MARGIN: f64 = 0.05;
+/// Gap up to which a touching point goes on touching, in slops: a body that turns about its contact point lifts it by
+/// ½ r (ω Δt)² in each step, since steps run along tangents.
+const KEEP_TOLERANCE: f64 = 0.01;
 /// Gap within which contact points are made even for bodies at rest, in length scales.
 const REST_MARGIN: f64 = 0.01;
 
@@ -307,19 +310,26 @@ pub fn find_contacts<D: Geometry>(
     }
     let detection = &mut *detection;
     let touch_tolerance = settings.touch_tolerance();
+    let keep_tolerance = touch_tolerance.max(KEEP_TOLERANCE * settings.slop());
     for (mut pair, mut manifold, mut memory) in &mut pairs {
         let pair = pair.bypass_change_detection();
         let [a, b] = pair.bodies.map(|body| &detection.motions[body as usize]);
         let [shape_a, shape_b] = pair.colliders.map(|collider| &colliders.as_slice()[collider as usize].shape);
         let query = ContactQuery {
             margin: a.reach + b.reach,
-            flush_tolerance: settings.slop() + touch_tolerance,
+            flush_tolerance: 2.0 * settings.slop() + touch_tolerance,
             previous: &manifold.0,
         };
         let found =
             D::collide(Posed { shape: shape_a, pose: &a.pose }, Posed { shape: shape_b, pose: &b.pose }, &query);
-        remember::<D>(&manifold.0, &found, &mut memory.bypass_change_detection().0);
-        let touching = D::points(&found).iter().any(|point| point.separation <= touch_tolerance);
+        let memory = &mut memory.bypass_change_detection().0;
+        remember::<D>(&manifold.0, &found, memory);
+        let mut touching = false;
+        for (point, memory) in D::points(&found).iter().zip(memory.as_mut()) {
+            let reach = if memory.touches { keep_tolerance } else { touch_tolerance };
+            memory.touches = memory.held || point.separation <= reach;
+            touching |= memory.touches;
+        }
         if touching != pair.touching {
             let phase = if touching { TouchPhase::Began } else { TouchPhase::Ended };
             detection.touches.push(Touch { phase, pair: pair.key, response: pair.response });

@@ -49,18 +49,19 @@ pub fn filter_velocities<D: Geometry>(
         return;
     }
     problem.gather_bodies(&bodies, detection.motions().len());
-    if problem.touching == 0 {
+    problem.admit_resting(&settings);
+    if problem.resting == 0 {
         return;
     }
     let filter = FilterSettings {
-        iterations: settings.impulse.iterations,
+        iterations: settings.sweeps(problem.resting),
         tolerance: settings.impulse.tolerance * settings.length_scale,
     };
-    let touching = &mut problem.rows[..problem.touching];
-    report.add(filter_slices(&mut problem.bodies, touching, &mut problem.prepared, &filter));
+    let resting = &mut problem.rows[..problem.resting];
+    report.add(filter_slices(&mut problem.bodies, resting, &mut problem.prepared, &filter));
     problem.scatter_bodies(&mut bodies, &mut fault, StepSystems::FilterVelocities);
 
-    for (row, source) in problem.rows.iter().zip(&problem.sources).take(problem.touching) {
+    for (row, source) in problem.rows.iter().zip(&problem.sources).take(problem.resting) {
         if let Ok((.., mut memory)) = pairs.get_mut(source.entity) {
             let memory = &mut memory.bypass_change_detection().0.as_mut()[source.point as usize];
             (memory.impulse, memory.slip) = (row.impulse, row.slip);
@@ -76,6 +77,7 @@ pub fn filter_positions<D: Geometry>(
     mut problem: ResMut<ContactProblem<D>>,
     mut corrections: ResMut<PositionCorrections<D>>,
     fault: Res<Fault>,
+    mut pairs: PairQuery<D>,
     bodies: BodyQuery<D>,
 ) {
     let problem = &mut *problem;
@@ -86,12 +88,21 @@ pub fn filter_positions<D: Geometry>(
     // Users may have changed velocities since they were filtered.
     problem.gather_mean_velocities(&bodies);
     let filter = PositionSettings {
-        iterations: settings.impulse.iterations,
+        iterations: settings.sweeps(problem.rows.len()),
         tolerance: settings.impulse.tolerance * settings.length_scale,
         slop: settings.slop(),
         recovery: settings.impulse.recovery,
     };
     corrections.0.find(&problem.bodies, &problem.rows, clock.dt, &filter);
+
+    for (i, source) in problem.sources.iter().enumerate() {
+        let held = corrections.0.holds(i);
+        if held != source.held
+            && let Ok((.., mut memory)) = pairs.get_mut(source.entity)
+        {
+            memory.bypass_change_detection().0.as_mut()[source.point as usize].held = held;
+        }
+    }
 }
 
 /// Lets colliding contacts bounce; see [`tumble_solver::impact`].
@@ -124,6 +135,12 @@ pub fn resolve_impulses<D: Geometry>(
         return;
     }
 
+    // Slower approaches than this are left to the velocity filter of the next step, which stops all of them at once.
+    let threshold = |row: &ContactRow<D>| match (settings.impulse.colliding_above, row.surface.restitution) {
+        (Some(_), _) => 0.0,
+        (None, 0.0) => 0.5 * settings.gravity.length() * settings.dt,
+        (None, _) => 0.02 * settings.rest_speed(row.normal()),
+    };
     let reading =
         Reading { dt: clock.dt, integrator: settings.integrator, touch_tolerance: settings.touch_tolerance() };
     let mut approaches: Vec<Approach> = problem
@@ -133,7 +150,8 @@ pub fn resolve_impulses<D: Geometry>(
         .map(|(row, source)| match (*beginning, pairs.get(source.entity)) {
             (Beginning::No, Ok((.., memory))) => {
                 let memory = &memory.0.as_ref()[source.point as usize];
-                reading.approach(row, -row.separating_speed(&problem.bodies), memory, &detection)
+                let approach = reading.approach(row, -row.separating_speed(&problem.bodies), memory, &detection);
+                Approach { threshold: threshold(row), ..approach }
             }
             _ => Approach::default(),
         })
@@ -202,7 +220,12 @@ impl Reading {
             // Nothing is known of the way here: it took the whole step.
             None => (-approach + gained - ahead).abs(),
         };
-        Approach { correction: at_surface - approach, half_step, rest_below: (-0.5 * gained).max(0.0), ignored: 0.0 }
+        Approach {
+            correction: at_surface - approach,
+            half_step,
+            rest_below: (-0.5 * gained).max(0.0),
+            ..Approach::default()
+        }
     }
 
     /// Acceleration of the gap by the forces of the step [m/s²].

@@ -60,10 +60,22 @@ pub struct PointMemory<V> {
     pub given: V,
     /// Separation found by the detection before; `None` for a new point [m].
     pub separation_before: Option<f64>,
+    /// Whether the position filter held the point in this step: it met the surface, whatever gap its turning leaves.
+    pub held: bool,
+    /// Whether the point touches.
+    pub touches: bool,
 }
 
 impl<V: Linear> Default for PointMemory<V> {
     fn default() -> Self {
-        Self { feature: FeatureId(0), impulse: V::ZERO, slip: Slip::default(), given: V::ZERO, separation_before: None }
+        Self {
+            feature: FeatureId(0),
+            impulse: V::ZERO,
+            slip: Slip::default(),
+            given: V::ZERO,
+            separation_before: None,
+            held: false,
+            touches: false,
+        }
     }
 }

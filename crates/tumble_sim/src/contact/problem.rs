@@ -6,6 +6,7 @@ use tumble_solver::filter::PreparedRow;
 use tumble_solver::{ContactRow, Ending, Report, SolverBody};
 
 use super::{ContactManifold, ContactMemory, ContactPair, Detection, PairKey};
+use crate::Settings;
 use crate::body::{
     AngularVelocity, BodyIndex, InverseInertia, InverseMass, LinearVelocity, Orientation, PreviousVelocity,
 };
@@ -35,12 +36,12 @@ impl ContactReport {
 pub struct ContactProblem<D: Geometry> {
     /// Bodies, by rank.
     pub(super) bodies: Vec<SolverBody<D>>,
-    /// Touching points first, then those with a gap; each part in the order of pairs and features.
+    /// Touching points first, then those with a gap; in the order of pairs and features as gathered.
     pub(super) rows: Vec<ContactRow<D>>,
     /// Where each row comes from.
     pub(super) sources: Vec<RowSource>,
-    /// How many rows touch.
-    pub(super) touching: usize,
+    /// How many rows, from the first, the velocity filter is to hold.
+    pub(super) resting: usize,
     pairs: Vec<(PairKey, Entity)>,
     near: Vec<(ContactRow<D>, RowSource)>,
     pub(super) prepared: Vec<PreparedRow<D>>,
@@ -52,6 +53,8 @@ pub struct ContactProblem<D: Geometry> {
 pub(super) struct RowSource {
     pub entity: Entity,
     pub point: u8,
+    /// What the point's memory says of the position filter.
+    pub held: bool,
 }
 
 impl<D: Geometry> Default for ContactProblem<D> {
@@ -60,7 +63,7 @@ impl<D: Geometry> Default for ContactProblem<D> {
             bodies: Vec::new(),
             rows: Vec::new(),
             sources: Vec::new(),
-            touching: 0,
+            resting: 0,
             pairs: Vec::new(),
             near: Vec::new(),
             prepared: Vec::new(),
@@ -134,12 +137,13 @@ impl<D: Geometry> ContactProblem<D> {
                     arm_a: point.point - at_a,
                     arm_b: point.point - at_b,
                     separation: point.separation,
+                    allowance: 0.0,
                     surface: pair.surface,
                     impulse: memory.impulse,
                     slip: memory.slip,
                 };
-                let source = RowSource { entity, point: number as u8 };
-                if point.separation <= touch_tolerance {
+                let source = RowSource { entity, point: number as u8, held: memory.held };
+                if point.separation <= touch_tolerance || memory.touches {
                     self.rows.push(row);
                     self.sources.push(source);
                 } else if wanted == Points::Near {
@@ -147,10 +151,26 @@ impl<D: Geometry> ContactProblem<D> {
                 }
             }
         }
-        self.touching = self.rows.len();
+        self.resting = self.rows.len();
         for (row, source) in self.near.drain(..) {
             self.rows.push(row);
             self.sources.push(source);
+        }
+    }
+
+    /// Moves rows with a gap that rest all the same to those that touch: points that approach no faster than gravity makes them in a
+    /// step and a half, across a gap that this speed can close. Without them, a resting point that solver error has
+    /// lifted by a hair would fall, and land, and be lifted again.
+    pub(super) fn admit_resting(&mut self, settings: &Settings<D>) {
+        for i in self.resting..self.rows.len() {
+            let slow = 3.0 * settings.rest_speed(self.rows[i].normal());
+            let row = &self.rows[i];
+            if row.separation <= slow * settings.dt && -row.separating_speed(&self.bodies) <= slow {
+                self.rows[i].allowance = row.separation / settings.dt;
+                self.rows.swap(i, self.resting);
+                self.sources.swap(i, self.resting);
+                self.resting += 1;
+            }
         }
     }
 
