@@ -12,8 +12,9 @@
 //! - **Not a number has failed**, whichever way it is compared.
 //! - `within`, `slack`: the tolerance itself is allowed. `above`, `below`: the bound itself is not.
 //! - A repeated body's name means all of its copies, and each of them must hold. For `by` and for events it means any of them.
-//! - **Touch** of two bodies: the first of their parts to touch, **part**: the last to leave; if parts change within one step, the bodies stay in touch. Bodies that
-//!   touch from the start begin to do so in the first step. Of two events in the same step neither is before the other.
+//! - **Touch** of two bodies is the first of their parts to touch, **part** the last to leave; where one part takes over from another
+//!   within a step, the bodies stay in touch. Bodies that touch from the start begin to do so in the first step. Of two events in
+//!   the same step neither is before the other.
 
 mod event;
 mod force;

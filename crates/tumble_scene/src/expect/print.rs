@@ -73,9 +73,9 @@ pub(super) fn unit(expectation: &Expectation) -> &'static str {
 fn moment(when: When) -> String {
     match when {
         When::At(time) => format!("at {time} s"),
-        When::Throughout { from, until } if until == f64::INFINITY && from == 0.0 => "always".to_owned(),
-        When::Throughout { from, until } if until == f64::INFINITY => format!("from {from} s"),
-        When::Throughout { from, until } if from == 0.0 => format!("until {until} s"),
+        When::Throughout { from: 0.0, until: f64::INFINITY } => "always".to_owned(),
+        When::Throughout { from, until: f64::INFINITY } => format!("from {from} s"),
+        When::Throughout { from: 0.0, until } => format!("until {until} s"),
         When::Throughout { from, until } => format!("from {from} s until {until} s"),
     }
 }
