@@ -27,6 +27,7 @@ mod load;
 pub mod materials;
 mod overlap;
 mod path;
+mod salvage;
 mod schema;
 pub mod shapes;
 pub mod shipped;

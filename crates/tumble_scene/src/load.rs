@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::Read;
+use std::ops::Range;
 use std::path::Path;
 
 use schemars::JsonSchema;
@@ -11,6 +12,7 @@ use crate::diagnostics::{Diagnostic, Diagnostics, Position};
 use crate::format::{MaterialTable, Scene};
 use crate::materials::MaterialLibrary;
 use crate::path::ScenePath;
+use crate::salvage::Salvage;
 use crate::text::{self, Grammar, Node};
 use crate::validate::{check_table, validate};
 use crate::write::SCENE;
@@ -46,8 +48,17 @@ impl Scene {
         let origin = origin.as_ref();
         // A byte order mark is no part of the text.
         let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
-        let (scene, root, mut diagnostics) = read_checked::<Self>(text, &SCENE, origin)?;
         let folder = origin.parent().unwrap_or(Path::new(""));
+        let (scene, root, mut diagnostics) = match read_checked::<Self>(text, &SCENE, origin) {
+            Ok(read) => read,
+            Err(refusal) => {
+                let Refusal { root, mut mistakes } = *refusal;
+                if let Some(root) = root {
+                    mistakes.extend(further_mistakes(text, &root, &mistakes, folder));
+                }
+                return Err(mistakes);
+            }
+        };
         let mut tables = Vec::new();
         for (index, file) in scene.materials_from.iter().enumerate() {
             match load_table(&folder.join(file)) {
@@ -64,10 +75,10 @@ impl Scene {
         }
         let materials = MaterialLibrary::with_tables(&scene, &tables);
         // Without all tables every material could be unknown, so only what is certain is told.
-        if !diagnostics.has_errors() {
-            let findings = validate(&scene, &materials);
-            diagnostics.extend(findings.into_iter().map(|finding| finding.located(|path| root.locate(path))));
-        }
+        let are_tables_read = !diagnostics.has_errors();
+        let findings =
+            validate(&scene, &materials).into_iter().filter(|finding| are_tables_read || !finding.needs_all_names);
+        diagnostics.extend(findings.map(|finding| finding.located(|path| root.locate(path))));
         if diagnostics.has_errors() {
             return Err(diagnostics);
         }
@@ -89,12 +100,31 @@ impl Scene {
     }
 }
 
+/// Mistakes in what the text's own mistakes leave of a scene.
+fn further_mistakes(text: &str, root: &Node, known: &Diagnostics, folder: &Path) -> Vec<Diagnostic> {
+    let spans: Vec<Range<usize>> = known.iter().filter_map(|mistake| mistake.span.clone()).collect();
+    let Some(salvage) = Salvage::of(text, root, &spans) else { return Vec::new() };
+    let tables: Result<Vec<MaterialTable>, Diagnostics> =
+        salvage.scene.materials_from.iter().map(|file| load_table(&folder.join(file))).collect();
+    let Ok(tables) = tables else { return Vec::new() };
+    let library = MaterialLibrary::with_tables(&salvage.scene, &tables);
+    let findings = salvage.carry_over(validate(&salvage.scene, &library));
+    findings.map(|finding| finding.located(|path| root.locate(path))).collect()
+}
+
 /// Reads a table of materials from a file.
 pub fn load_table(path: &Path) -> Result<MaterialTable, Diagnostics> {
     let text = read_file(path)?;
-    let (table, root, mut diagnostics) = read_checked(&text, &Grammar::of::<MaterialTable>(), path)?;
+    let read = read_checked(&text, &Grammar::of::<MaterialTable>(), path);
+    let (table, root, mut diagnostics) = read.map_err(|refusal| refusal.mistakes)?;
     diagnostics.extend(check_table(&table).into_iter().map(|finding| finding.located(|path| root.locate(path))));
     if diagnostics.has_errors() { Err(diagnostics) } else { Ok(table) }
+}
+
+/// A text that is no value: its tree, as far as there is one, and its mistakes.
+struct Refusal {
+    root: Option<Node>,
+    mistakes: Diagnostics,
 }
 
 /// Reads a value and its tree, or every mistake of its syntax and structure.
@@ -102,14 +132,17 @@ fn read_checked<T: DeserializeOwned + JsonSchema>(
     text: &str,
     grammar: &Grammar,
     origin: &Path,
-) -> Result<(T, Node, Diagnostics), Diagnostics> {
+) -> Result<(T, Node, Diagnostics), Box<Refusal>> {
     let mut diagnostics = Diagnostics::new(origin.display().to_string(), text);
     let (root, mistakes) = text::parse(text);
     diagnostics.extend(mistakes);
     if let Some(root) = &root {
         diagnostics.extend(text::check(text, root, grammar));
     }
-    let Some(root) = root.filter(|_| !diagnostics.has_errors()) else { return Err(diagnostics) };
+    let root = match root {
+        Some(root) if !diagnostics.has_errors() => root,
+        root => return Err(Box::new(Refusal { root, mistakes: diagnostics })),
+    };
     match text::read(text) {
         Ok(value) => Ok((value, root, diagnostics)),
         Err(error) => {
@@ -118,7 +151,7 @@ fn read_checked<T: DeserializeOwned + JsonSchema>(
             let start = at(error.span.start);
             let span = start..at(error.span.end).max(start);
             diagnostics.push(Diagnostic::error("this cannot be read").at(span).labelled(error.code.to_string()));
-            Err(diagnostics)
+            Err(Box::new(Refusal { root: Some(root), mistakes: diagnostics }))
         }
     }
 }

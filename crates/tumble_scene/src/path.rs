@@ -38,6 +38,15 @@ impl ScenePath {
         self.down(Segment::Key(key.to_owned()))
     }
 
+    /// The same place in another element of the list at the top.
+    pub(crate) fn with_element(&self, index: usize) -> Self {
+        let mut segments = self.0.clone();
+        if let Some(element) = segments.get_mut(1) {
+            *element = Segment::Index(index);
+        }
+        Self(segments)
+    }
+
     pub(crate) fn segments(&self) -> &[Segment] {
         &self.0
     }

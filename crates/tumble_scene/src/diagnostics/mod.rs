@@ -39,6 +39,8 @@ pub struct Diagnostic {
     /// Ways out, such as the allowed names.
     pub help: Vec<String>,
     also_paths: Vec<(ScenePath, String)>,
+    /// Whether it only holds if every name of the scene is known.
+    pub(crate) needs_all_names: bool,
 }
 
 impl Diagnostic {
@@ -53,6 +55,7 @@ impl Diagnostic {
             also: Vec::new(),
             help: Vec::new(),
             also_paths: Vec::new(),
+            needs_all_names: false,
         }
     }
 
@@ -94,6 +97,15 @@ impl Diagnostic {
     /// Adds a way out.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help.push(help.into());
+        self
+    }
+
+    /// Changes places in the scene.
+    pub(crate) fn moved(mut self, place: impl Fn(&ScenePath) -> ScenePath) -> Self {
+        self.path = place(&self.path);
+        for (path, _) in &mut self.also_paths {
+            *path = place(path);
+        }
         self
     }
 

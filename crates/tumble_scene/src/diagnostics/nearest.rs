@@ -11,7 +11,7 @@ pub(crate) fn nearest<'n>(written: &str, allowed: impl IntoIterator<Item = &'n s
 }
 
 /// A label and a help text about an unknown name: the nearest one, and all allowed ones unless they are many.
-pub(crate) fn nearest_or_all<'n>(written: &str, kind: &str, allowed: &[&'n str]) -> (String, String) {
+pub(crate) fn nearest_or_all(written: &str, kind: &str, allowed: &[&str]) -> (String, String) {
     const MOST_NAMES: usize = 24;
     let label = match nearest(written, allowed.iter().copied()) {
         Some(near) => format!("did you mean \"{near}\"?"),

@@ -288,8 +288,10 @@ impl<'t> Parser<'t> {
             }
             Some(_) if comma => true,
             Some(_) => {
-                let before = self.text[..self.at].trim_end().len();
-                self.mistake(before.saturating_sub(1)..before, "a comma is missing", "expected `,` after this", None);
+                let before = self.text[..self.at].trim_end();
+                let last = before.chars().next_back().map_or(0, char::len_utf8);
+                let span = before.len() - last..before.len();
+                self.mistake(span, "a comma is missing", "expected `,` after this", None);
                 !self.stopped
             }
         }

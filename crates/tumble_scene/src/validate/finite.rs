@@ -1,64 +1,46 @@
 //! Numbers that are infinite or NaN. Files cannot contain them by the time they get here; scenes built in code can.
 
-use serde_json::Value;
-
 use crate::diagnostics::Diagnostic;
 use crate::format::Scene;
 use crate::path::ScenePath;
-use crate::text::Shape;
-use crate::write::SCENE;
+use crate::text::{Kind, Node, parse};
 
-/// Every number of a scene that is not finite. JSON has no such numbers, so they show as nulls where numbers must stand.
+/// Every number of a scene that is not finite, found in its text: RON writes them as words, which no enum uses.
 pub(super) fn check(scene: &Scene) -> Vec<Diagnostic> {
+    let Ok(text) = ron::to_string(scene) else { return Vec::new() };
     let mut found = Vec::new();
-    if let Ok(value) = serde_json::to_value(scene) {
-        walk(&value, &SCENE.root, &ScenePath::root(), &mut found);
+    if let (Some(root), _) = parse(&text) {
+        walk(&text, &root, &ScenePath::root(), &mut found);
     }
     found
 }
 
-fn walk(value: &Value, shape: &Shape, path: &ScenePath, found: &mut Vec<Diagnostic>) {
-    match (SCENE.resolve(shape), value) {
-        (Shape::Number | Shape::Either(_), Value::Null) => {
+fn walk(text: &str, node: &Node, path: &ScenePath, found: &mut Vec<Diagnostic>) {
+    let node = node.without_some();
+    match &node.kind {
+        Kind::Word(word) if !matches!(word.as_str(), "inf" | "NaN") => {}
+        Kind::Number if !text[node.span.clone()].ends_with(['f', 'N']) => {}
+        Kind::Word(_) | Kind::Number => {
             let message = format!("{path} must be finite");
             found.push(Diagnostic::error(message).about(path.clone()).labelled("neither infinity nor NaN is a value"));
         }
-        (Shape::Optional(inner), value) if !value.is_null() => walk(value, inner, path, found),
-        (Shape::List(item), Value::Array(items)) => {
-            for (index, value) in items.iter().enumerate() {
-                walk(value, item, &path.index(index), found);
+        Kind::List(items) | Kind::Tuple { items, .. } => {
+            for (index, item) in items.iter().enumerate() {
+                walk(text, item, &path.index(index), found);
             }
         }
-        (Shape::Tuple(shapes), Value::Array(items)) => {
-            for (index, (value, shape)) in items.iter().zip(shapes).enumerate() {
-                walk(value, shape, &path.index(index), found);
+        Kind::Struct { fields, .. } => {
+            for (name, value) in fields {
+                walk(text, value, &path.field(&name.text), found);
             }
         }
-        (Shape::Map(shape), Value::Object(entries)) => {
-            for (key, value) in entries {
-                walk(value, shape, &path.key(key), found);
-            }
-        }
-        (Shape::Struct(fields), Value::Object(object)) => {
-            for field in fields {
-                if let Some(value) = object.get(&field.name) {
-                    walk(value, &field.shape, &path.field(&field.name), found);
+        Kind::Map(entries) => {
+            for entry in entries {
+                if let Kind::Text(key) = &entry.key.kind {
+                    walk(text, &entry.value, &path.key(key), found);
                 }
             }
         }
-        // A variant with fields adds no step to the path.
-        (Shape::Enum(variants), Value::Object(object)) => {
-            for variant in variants {
-                if let (Some(content), Some(value)) = (&variant.content, object.get(&variant.name)) {
-                    walk(value, content, path, found);
-                }
-            }
-        }
-        (Shape::Either(shapes), Value::Array(_)) => {
-            for shape in shapes.iter().filter(|shape| matches!(shape, Shape::Tuple(_) | Shape::List(_))) {
-                walk(value, shape, path, found);
-            }
-        }
-        _ => {}
+        Kind::Text(_) | Kind::Other => {}
     }
 }

@@ -73,7 +73,9 @@ impl Findings {
     fn unknown(&mut self, path: &ScenePath, kind: &str, name: &str, allowed: &[&str]) {
         let (label, help) = nearest_or_all(name, kind, allowed);
         let message = format!("there is no {kind} \"{name}\"");
-        self.add(Diagnostic::error(message).about(path.clone()).labelled(label).help(help));
+        let mut diagnostic = Diagnostic::error(message).about(path.clone()).labelled(label).help(help);
+        diagnostic.needs_all_names = true;
+        self.add(diagnostic);
     }
 }
 

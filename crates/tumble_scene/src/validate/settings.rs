@@ -24,7 +24,7 @@ pub(super) fn check(scene: &Scene, found: &mut Findings) {
         found.error(&top.field("every"), "`every` must be at least 1", "a sample every 0 steps");
     }
     if scene.bodies.is_empty() {
-        found.warning(&top, "the scene has no bodies", "nothing will happen");
+        found.warning(&top.field("bodies"), "the scene has no bodies", "nothing will happen");
     }
     models(scene, found);
 }
