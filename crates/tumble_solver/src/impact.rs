@@ -11,8 +11,10 @@
 //! both with the full compliance K of the point, so that the tangential impulse feeds back into the normal one. Without friction
 //! this is the lecture's j = −(1 + ε) v_n⁻ / K_nn.
 //!
+//! Always the point that approaches fastest is next; of equals, the first row. Beyond 400 points the order is found once per round.
+//!
 //! Good at: single impacts, chains (Newton's cradle), exactness. Bad at: simultaneous impacts of one body, where the answer
-//! depends on the order (the worst first; of equals, the first row). Known limit: Newton's law with friction can create energy in
+//! depends on the order. Known limit: Newton's law with friction can create energy in
 //! rare configurations (Kane's paradox; Wang and Mason 1992).
 
 use tumble_math::{Dim, Linear, Matrix, Vector};
@@ -66,14 +68,13 @@ pub fn resolve_one_by_one<D: Dim>(
     let excess = |bodies: &[SolverBody<D>], i: usize, approach: &Approach| {
         (-rows[i].separating_speed(bodies) - approach.ignored - approach.threshold - settings.colliding_above).max(0.0)
     };
-    let mut queue = Tournament::of(rows.iter().enumerate().map(|(i, _)| excess(bodies, i, &approaches[i])));
-    if queue.best().is_none_or(|(_, excess)| excess <= 0.0) {
+    if !(0..rows.len()).any(|i| excess(bodies, i, &approaches[i]) > 0.0) {
         return report;
     }
 
-    let neighbours = Neighbours::of(bodies, rows);
     let cap = (rows.len() as u64 * u64::from(settings.impulses_per_contact)).min(u64::from(u32::MAX)) as u32;
-    while let Some((worst, _)) = queue.best().filter(|(_, excess)| *excess > 0.0) {
+    let mut order = Order::of(bodies, rows);
+    while let Some(worst) = order.next(|i| excess(bodies, i, &approaches[i])) {
         if report.iterations == cap {
             report.ending = Ending::NotConverged;
             break;
@@ -85,10 +86,6 @@ pub fn resolve_one_by_one<D: Dim>(
         let impulse = impulse_for(&row.compliance(bodies), velocity, rebound, &row.surface);
         row.apply(bodies, impulse);
         given[worst] += impulse;
-        for &i in neighbours.of_bodies(row.a, row.b) {
-            let i = i as usize;
-            queue.update(i, excess(bodies, i, &approaches[i]));
-        }
     }
     let left = |(row, approach): (&ContactRow<D>, &Approach)| {
         -row.separating_speed(bodies) - approach.ignored - approach.threshold
@@ -144,57 +141,70 @@ fn against<V: Vector>(slip: V, fallback: V) -> V {
     -direction.unwrap_or(V::ZERO)
 }
 
-/// Finds the greatest of many numbers of which a few change at a time; of equals, the first.
-///
-/// A complete binary tree over the numbers: each node holds the index of the winner below it, so a change costs one look per level, and
-/// stops where the winner stays and has not changed itself.
-struct Tournament {
-    values: Vec<f64>,
-    /// Winners; node i has the children 2i and 2i + 1, and the leaves begin at `first_leaf`.
-    winners: Vec<u32>,
-    first_leaf: usize,
+/// Up to this many points the worst is looked for after every impulse; beyond, once per round.
+const POINTS_WORST_FIRST: usize = 400;
+
+/// Chooses the next colliding point.
+enum Order {
+    /// Always the worst. The excess of every point is kept, and looked at again where the last impulse acted.
+    WorstFirst { excesses: Option<Vec<f64>>, neighbours: Neighbours, last: [u32; 2], ends: Vec<[u32; 2]> },
+    /// In rounds: the colliding points of a round in falling order of excess, those skipped that an earlier impulse of the round has
+    /// stopped; again until a round finds none. For many points, where always looking for the worst would cost more than the impulses.
+    Rounds { round: Vec<(f64, u32)>, next: usize, points: usize },
 }
 
-impl Tournament {
-    fn of(values: impl Iterator<Item = f64>) -> Self {
-        let values: Vec<f64> = values.collect();
-        let first_leaf = values.len().next_power_of_two();
-        let mut tournament = Self { winners: vec![0; 2 * first_leaf], first_leaf, values };
-        for i in 0..first_leaf {
-            tournament.winners[first_leaf + i] = i as u32;
+impl Order {
+    fn of<D: Dim>(bodies: &[SolverBody<D>], rows: &[ContactRow<D>]) -> Self {
+        if rows.len() > POINTS_WORST_FIRST {
+            return Self::Rounds { round: Vec::new(), next: 0, points: rows.len() };
         }
-        for node in (1..first_leaf).rev() {
-            tournament.winners[node] = tournament.play(node);
+        Self::WorstFirst {
+            excesses: None,
+            neighbours: Neighbours::of(bodies, rows),
+            last: [0; 2],
+            ends: rows.iter().map(|row| [row.a, row.b]).collect(),
         }
-        tournament
     }
 
-    /// The greatest number and its index.
-    fn best(&self) -> Option<(usize, f64)> {
-        let winner = *self.winners.get(1)? as usize;
-        self.values.get(winner).map(|value| (winner, *value))
-    }
-
-    fn update(&mut self, index: usize, value: f64) {
-        if self.values[index] == value {
-            return;
-        }
-        self.values[index] = value;
-        let mut node = (self.first_leaf + index) / 2;
-        while node > 0 {
-            let winner = self.play(node);
-            if winner == self.winners[node] && winner as usize != index {
-                return;
+    /// The next colliding point; of equals, the first. `excess` is by how much a point is colliding now, 0 if it is not.
+    fn next(&mut self, excess: impl Fn(usize) -> f64) -> Option<usize> {
+        match self {
+            Self::WorstFirst { excesses, neighbours, last, ends } => {
+                let excesses = match excesses {
+                    Some(known) => {
+                        for &i in neighbours.of_bodies(last[0], last[1]) {
+                            known[i as usize] = excess(i as usize);
+                        }
+                        known
+                    }
+                    None => excesses.insert((0..ends.len()).map(excess).collect()),
+                };
+                let mut worst = (None, 0.0);
+                for (i, excess) in excesses.iter().enumerate() {
+                    if *excess > worst.1 {
+                        worst = (Some(i), *excess);
+                    }
+                }
+                *last = ends[worst.0?];
+                worst.0
             }
-            self.winners[node] = winner;
-            node /= 2;
+            Self::Rounds { round, next, points } => loop {
+                while let Some((_, i)) = round.get(*next) {
+                    *next += 1;
+                    if excess(*i as usize) > 0.0 {
+                        return Some(*i as usize);
+                    }
+                }
+                *next = 0;
+                round.clear();
+                let colliding = (0..*points).map(|i| (excess(i), i as u32)).filter(|(excess, _)| *excess > 0.0);
+                round.extend(colliding);
+                round.sort_unstable_by(|x, y| y.0.total_cmp(&x.0).then(x.1.cmp(&y.1)));
+                if round.is_empty() {
+                    return None;
+                }
+            },
         }
-    }
-
-    fn play(&self, node: usize) -> u32 {
-        let (left, right) = (self.winners[2 * node], self.winners[2 * node + 1]);
-        let value = |index: u32| self.values.get(index as usize).copied().unwrap_or(f64::NEG_INFINITY);
-        if value(right) > value(left) { right } else { left }
     }
 }
 

@@ -171,7 +171,7 @@ pub fn find_pairs<D: Geometry>(
         }
         for part in parts {
             let volume = D::volume(&colliders.as_slice()[part].shape, &pose).grown(motion.reach);
-            detection.broad.update(part as u32, volume, fat_margin);
+            detection.broad.update(part as u32, volume, fat_margin + motion.reach);
         }
     }
     detection.ranks = if detection.ranks == Ranks::Forgotten { Ranks::Renewed } else { Ranks::Known };
