@@ -1,1 +1,49 @@
-fn main() {}
+//! `tumble`: runs, checks and tests scenes of rigid bodies.
+//!
+//! - [`args`]: the command line; [`source`]: from its words to scenes;
+//! - [`run`], [`check`], [`test`], [`scenes`]: one file per command;
+//! - [`simulate`]: a scene from its first step to its last, or as far as it gets; [`interrupt`]: Ctrl-C;
+//! - [`report`], [`figure`]: a run in words; [`page`]: standard output, which may be closed or full;
+//! - [`failure`]: what can go wrong, and its exit code.
+
+mod args;
+mod check;
+mod failure;
+mod figure;
+mod interrupt;
+mod page;
+mod report;
+mod run;
+mod scenes;
+mod simulate;
+mod source;
+mod test;
+
+use std::process::ExitCode;
+
+use args::{Arguments, Command, RunArguments};
+use clap::Parser;
+use failure::{Exit, Failure};
+use page::Page;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let mut page = Page::stdout();
+    let done = command(arguments.command.unwrap_or_else(|| Command::Run(RunArguments::default())), &mut page);
+    // What was printed matters less than what went wrong before.
+    let exit = done.and_then(|exit| page.finish().map(|()| exit));
+    exit.unwrap_or_else(|failure| failure.tell()).into()
+}
+
+fn command(command: Command, page: &mut Page) -> Result<Exit, Failure> {
+    match command {
+        Command::Run(arguments) => run::run(&arguments, page),
+        Command::Scenes => scenes::scenes(page),
+        Command::Check(arguments) => check::check(&arguments, page),
+        Command::Test(arguments) => test::test(&arguments, page),
+        Command::Schema => {
+            page.line(tumble_scene::schema());
+            Ok(Exit::Fine)
+        }
+    }
+}

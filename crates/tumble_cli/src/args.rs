@@ -1,0 +1,153 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand, value_parser};
+use tumble_record::{Channel, body_quantity_names, world_names};
+use tumble_scene::format::ContactModel;
+
+/// Rigid bodies in contact, simulated headless: exact, exchangeable, reproducible.
+///
+/// Without a command, the scene `homework_rods` runs: an L, a T and a star of rods dropped on a floor.
+#[derive(Debug, Parser)]
+#[command(version, propagate_version = true, max_term_width = 100, after_help = EXIT_CODES)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  fine
+  1  an expectation failed
+  2  wrong arguments, or a scene with mistakes
+  3  the run itself failed or was interrupted, or its files could not be written";
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scene, and write down what happened
+    Run(RunArguments),
+    /// List the scenes that come with the program
+    Scenes,
+    /// Look for mistakes and print the mass of every body, without running anything
+    Check(CheckArguments),
+    /// Run scenes and tell which of their expectations hold
+    Test(TestArguments),
+    /// Print the JSON Schema of the scene format
+    Schema,
+}
+
+/// Run a scene.
+#[derive(Args, Debug, Default)]
+#[command(after_help = after_run_help())]
+pub struct RunArguments {
+    /// A scene file, or the name of a shipped scene (see `tumble scenes`); default: homework_rods
+    ///
+    /// What contains a `/` or ends in `.ron` is a file, everything else the name of a shipped scene.
+    #[arg(value_name = "SCENE")]
+    pub scene: Option<PathBuf>,
+    /// Folder for the files; default: out/<scene name>
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub overrides: Overrides,
+    /// Write the trajectory and the contacts of every N-th step only; the first and the last are always there
+    ///
+    /// Sums (audit.csv) and expectations look at every step all the same.
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    pub every: Option<u32>,
+    /// Draw a quantity over time, such as `total` or `y:ball`; may be repeated
+    #[arg(long = "plot", value_name = "CHANNEL[:BODY]")]
+    pub plots: Vec<Channel>,
+    /// Print only failed expectations and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// What the command line says in the scene's place.
+#[derive(Args, Clone, Debug, Default)]
+pub struct Overrides {
+    /// Another contact model than the scene's
+    #[arg(long, value_name = "MODEL", value_parser = contact_model())]
+    pub contact: Option<ContactModel>,
+    /// Another time step than the scene's [s]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub dt: Option<f64>,
+    /// Another duration than the scene's [s]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub duration: Option<f64>,
+}
+
+impl Overrides {
+    /// Whether the scene runs as it was written.
+    pub fn are_none(&self) -> bool {
+        self.contact.is_none() && self.dt.is_none() && self.duration.is_none()
+    }
+}
+
+/// Check scenes.
+#[derive(Args, Debug)]
+pub struct CheckArguments {
+    /// Scene files, or names of shipped scenes
+    #[arg(value_name = "SCENE", required = true)]
+    pub scenes: Vec<PathBuf>,
+}
+
+/// Test scenes.
+#[derive(Args, Debug)]
+pub struct TestArguments {
+    /// Scene files, folders with scene files (*.ron) at any depth, or names of shipped scenes
+    #[arg(value_name = "PATH", required = true)]
+    pub paths: Vec<PathBuf>,
+    /// Run under this contact model, and ask only for the expectations claimed for it
+    #[arg(long, value_name = "MODEL", value_parser = contact_model())]
+    pub contact: Option<ContactModel>,
+}
+
+fn contact_model() -> impl TypedValueParser<Value = ContactModel> {
+    PossibleValuesParser::new(ContactModel::ALL.map(ContactModel::word))
+        .try_map(|word| ContactModel::from_word(&word).ok_or("unknown contact model"))
+}
+
+/// Reads a positive number of seconds.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        Ok(_) => Err("it must be positive and finite".to_owned()),
+        Err(_) => Err("it must be a number of seconds, such as 0.01".to_owned()),
+    }
+}
+
+fn after_run_help() -> String {
+    format!(
+        "Files: trajectory.csv, contacts.csv, audit.csv, touches.csv, summary.json, energy.svg, replay.html, and an SVG per plot.\n\
+         They appear whole or not at all; of a run that fails or is interrupted, DIR/partial/ holds the samples so far.\n\n\
+         With --contact, --dt or --duration the expectations are told, but a failed one does not fail the run.\n\n\
+         Channels of the world: {}\nChannels of a body (CHANNEL:BODY, or without :BODY of every moving body): {}\n\n{EXIT_CODES}",
+        world_names().join(", "),
+        body_quantity_names().join(", ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn seconds_are_positive_and_finite() {
+        assert_eq!(seconds("0.25"), Ok(0.25));
+        for wrong in ["0", "-0", "-1", "NaN", "inf", "-inf", "1e400", "", "1s", "0,5"] {
+            assert!(seconds(wrong).is_err(), "{wrong}");
+        }
+    }
+}

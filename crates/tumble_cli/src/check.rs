@@ -1,0 +1,86 @@
+//! `tumble check`: mistakes, warnings and masses of scenes, without running anything.
+
+use tumble_math::Planar;
+use tumble_scene::{FromScene, Loaded};
+use tumble_sim::{BodyKind, BodyTable, Simulation};
+
+use crate::args::CheckArguments;
+use crate::failure::{Exit, Failure, stderr_color, tell};
+use crate::figure::{Column, counted, figure, table};
+use crate::page::Page;
+use crate::source::Source;
+
+/// Checks every scene, and goes on after one with mistakes.
+pub fn check(arguments: &CheckArguments, page: &mut Page) -> Result<Exit, Failure> {
+    let mut exit = Exit::Fine;
+    for (index, word) in arguments.scenes.iter().enumerate() {
+        if index > 0 {
+            page.line("");
+        }
+        if let Err(failure) = Source::of(word).and_then(|source| check_one(&source, page)) {
+            page.line(format!("{}: FAILED", word.display()));
+            exit = failure.tell();
+        }
+    }
+    Ok(exit)
+}
+
+fn check_one(source: &Source, page: &mut Page) -> Result<(), Failure> {
+    let loaded = source.load()?;
+    let simulation = Simulation::from_loaded(&loaded).map_err(|error| Failure::of_build(&source.label(), error))?;
+    if !loaded.warnings.is_empty() {
+        tell(loaded.warnings.render(stderr_color()));
+    }
+    page.line(format!("{}: {}", source.label(), contents(&loaded, &simulation)));
+    page.line("");
+    for line in masses(&simulation) {
+        page.line(line);
+    }
+    Ok(())
+}
+
+/// What is in the scene, in a line.
+fn contents(loaded: &Loaded, simulation: &Simulation<Planar>) -> String {
+    let scene = &loaded.scene;
+    let bodies = simulation.world().resource::<BodyTable>().entries().len();
+    let mut counts = vec![(bodies, "body")];
+    counts.extend([
+        (scene.springs.len(), "spring"),
+        (scene.forces.len(), "force"),
+        (scene.expect.len(), "expectation"),
+    ]);
+    counts.push((loaded.warnings.len(), "warning"));
+    let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, one)| match *one {
+        "body" if *count != 1 => format!("{count} bodies"),
+        one => counted(*count as u64, one),
+    });
+    let words: Vec<String> = words.collect();
+    if words.is_empty() { "empty".to_owned() } else { words.join(", ") }
+}
+
+/// Mass, centre of mass at the start and inertia of every body.
+fn masses(simulation: &Simulation<Planar>) -> Vec<String> {
+    let heads = ["body", "kind", "mass [kg]", "centre x [m]", "y [m]", "inertia [kg·m²]"];
+    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    for entry in simulation.world().resource::<BodyTable>().entries() {
+        let Ok(body) = simulation.body(&entry.name) else { continue };
+        let centre = body.position();
+        // What no force moves has no mass that matters.
+        let of_mass = |value: f64| if entry.kind == BodyKind::Dynamic { figure(value) } else { "-".to_owned() };
+        let kind = match entry.kind {
+            BodyKind::Dynamic => "dynamic",
+            BodyKind::Kinematic => "kinematic",
+            BodyKind::Static => "static",
+        };
+        rows.push(vec![
+            entry.name.clone(),
+            kind.to_owned(),
+            of_mass(body.mass()),
+            figure(centre.x),
+            figure(centre.y),
+            of_mass(body.inertia()),
+        ]);
+    }
+    use Column::{Left, Right};
+    table(&[Left, Left, Right, Right, Right, Right], &rows)
+}

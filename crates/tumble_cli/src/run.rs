@@ -1,0 +1,114 @@
+//! `tumble run`: a scene from its first step to its files.
+
+use std::path::Path;
+
+use tumble_record::{Completeness, OutputFolder, Record, Summary, write_run};
+
+use crate::args::RunArguments;
+use crate::failure::{Exit, Failure, stderr_color, tell};
+use crate::interrupt;
+use crate::page::Page;
+use crate::report::{self, Shown, Tally};
+use crate::simulate::{Ending, Prepared, Progress, Run, thin};
+use crate::source::Source;
+
+/// Folder of the files of all runs, one folder per scene.
+const OUT: &str = "out";
+
+/// Runs a scene, writes its files and prints what came of it.
+pub fn run(arguments: &RunArguments, page: &mut Page) -> Result<Exit, Failure> {
+    let source = arguments.scene.as_deref().map_or_else(Source::default_scene, Source::of)?;
+    let loaded = source.load()?;
+    if !arguments.quiet && !loaded.warnings.is_empty() {
+        tell(loaded.warnings.render(stderr_color()));
+    }
+    let mut prepared = Prepared::new(&source, loaded, &arguments.overrides, arguments.every)?;
+    let folder = arguments.out.clone().unwrap_or_else(|| Path::new(OUT).join(source.stem()));
+    let output = Output { folder: OutputFolder::new(folder), arguments };
+    output.check(&mut prepared)?;
+
+    interrupt::listen();
+    let run = prepared.run(if arguments.quiet { Progress::Hidden } else { Progress::Shown });
+    match &run.ending {
+        Ending::Complete => output.complete(&prepared, run, page),
+        Ending::Interrupted => {
+            let time = prepared.simulation.time();
+            output.partial(&prepared, run, &format!("interrupted at {time} s"))
+        }
+        Ending::Failed(error) => {
+            let reason = format!("the run of {} failed: {error}", prepared.name);
+            output.partial(&prepared, run, &reason)
+        }
+    }
+}
+
+/// Where the files go, and what is asked of them.
+struct Output<'a> {
+    folder: OutputFolder,
+    arguments: &'a RunArguments,
+}
+
+impl Output<'_> {
+    /// Refuses, before a long run, plots that cannot be drawn and a folder that cannot be made.
+    fn check(&self, prepared: &mut Prepared) -> Result<(), Failure> {
+        if let Some(recording) = prepared.simulation.recording() {
+            self.arguments.plots.iter().try_for_each(|channel| channel.check(&recording.bodies))?;
+        }
+        self.folder.prepare(Completeness::Whole).map(drop)?;
+        Ok(())
+    }
+
+    /// Writes and tells what came of a run that came to its end.
+    fn complete(&self, prepared: &Prepared, mut run: Run, page: &mut Page) -> Result<Exit, Failure> {
+        let verdict = prepared.verdict(&run.recording);
+        let tally = Tally::of(&verdict);
+        thin(&mut run.recording, prepared.every);
+        let summary = Summary::new(&run.recording, run.wall_time);
+        let plots = &self.arguments.plots;
+        let files = match write_run(&self.folder, Completeness::Whole, &run.recording, &summary, plots) {
+            Ok(files) => files,
+            Err(error) => return self.partial(prepared, run, &error.to_string()),
+        };
+        if self.arguments.quiet {
+            report::outcomes(page, &verdict, Shown::Failures);
+        } else {
+            page.line(title(&run.recording.scene, &run.recording.about));
+            page.line("");
+            report::numbers(&run.recording, &summary).iter().for_each(|line| page.line(line));
+            page.line("");
+            if !run.notices.is_empty() {
+                run.notices.iter().for_each(|notice| page.line(format!("notice: {notice}")));
+                page.line("");
+            }
+            if !verdict.outcomes.is_empty() {
+                report::outcomes(page, &verdict, Shown::All);
+                let aside = if self.arguments.overrides.are_none() { "" } else { " (the scene was overridden)" };
+                page.line(format!("{}{aside}\n", tally.words()));
+            }
+            page.line(report::files(&self.folder, Completeness::Whole, &files));
+        }
+        let decides = self.arguments.overrides.are_none();
+        Ok(if decides && !tally.passed() { Exit::ExpectationFailed } else { Exit::Fine })
+    }
+
+    /// Writes the samples so far of a run that did not come to its end, or whose files cannot be written.
+    fn partial(&self, prepared: &Prepared, mut run: Run, reason: &str) -> Result<Exit, Failure> {
+        thin(&mut run.recording, prepared.every);
+        let summary = Summary::new(&run.recording, run.wall_time);
+        let rescued = write_run(&self.folder, Completeness::Partial, &run.recording, &summary, &self.arguments.plots);
+        let rescue = match rescued {
+            Ok(_) => {
+                let samples = run.recording.samples.len();
+                let folder = self.folder.path(Completeness::Partial);
+                format!("the {samples} samples so far are in {}", folder.display())
+            }
+            Err(error) => format!("nor can the samples so far be kept: {error}"),
+        };
+        Err(Failure::Run(format!("{reason}\n  {rescue}")))
+    }
+}
+
+/// The name of a scene and what it shows.
+fn title(name: &str, about: &str) -> String {
+    if about.is_empty() { name.to_owned() } else { format!("{name}: {about}") }
+}
