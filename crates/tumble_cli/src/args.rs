@@ -11,7 +11,7 @@ use tumble_scene::format::ContactModel;
 ///
 /// Without a command, the scene `homework_rods` runs: an L, a T and a star of rods dropped on a floor.
 #[derive(Debug, Parser)]
-#[command(version, propagate_version = true, max_term_width = 100, after_help = EXIT_CODES)]
+#[command(name = "tumble", version, propagate_version = true, max_term_width = 100, after_help = EXIT_CODES)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -74,10 +74,10 @@ pub struct Overrides {
     #[arg(long, value_name = "MODEL", value_parser = contact_model())]
     pub contact: Option<ContactModel>,
     /// Another time step than the scene's [s]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_hyphen_values = true)]
     pub dt: Option<f64>,
     /// Another duration than the scene's [s]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_hyphen_values = true)]
     pub duration: Option<f64>,
 }
 

@@ -6,6 +6,7 @@ use tumble_record::{Completeness, OutputFolder, Record, Summary, write_run};
 
 use crate::args::RunArguments;
 use crate::failure::{Exit, Failure, stderr_color, tell};
+use crate::figure::one_line;
 use crate::interrupt;
 use crate::page::Page;
 use crate::report::{self, Shown, Tally};
@@ -25,9 +26,9 @@ pub fn run(arguments: &RunArguments, page: &mut Page) -> Result<Exit, Failure> {
     let mut prepared = Prepared::new(&source, loaded, &arguments.overrides, arguments.every)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new(OUT).join(source.stem()));
     let output = Output { folder: OutputFolder::new(folder), arguments };
+    interrupt::listen();
     output.check(&mut prepared)?;
 
-    interrupt::listen();
     let run = prepared.run(if arguments.quiet { Progress::Hidden } else { Progress::Shown });
     match &run.ending {
         Ending::Complete => output.complete(&prepared, run, page),
@@ -110,5 +111,5 @@ impl Output<'_> {
 
 /// The name of a scene and what it shows.
 fn title(name: &str, about: &str) -> String {
-    if about.is_empty() { name.to_owned() } else { format!("{name}: {about}") }
+    if about.is_empty() { name.to_owned() } else { format!("{name}: {}", one_line(about)) }
 }

@@ -88,8 +88,8 @@ fn is_path(word: &Path) -> bool {
 
 fn unknown(word: &Path) -> Failure {
     let name = word.display();
-    let near = word.to_str().and_then(Shipped::nearest);
-    let near = near.map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
+    let near = word.to_str().map(Shipped::near).unwrap_or_default();
+    let near = if near.is_empty() { String::new() } else { format!("; did you mean {}?", near.join(" or ")) };
     let names = SHIPPED.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", ");
     let file =
         if word.exists() { format!("\n  for the file or folder of this name write ./{name}") } else { String::new() };

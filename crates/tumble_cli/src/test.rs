@@ -64,7 +64,7 @@ impl Totals {
         match tested {
             Tested::Refused { reason } => {
                 self.refused += 1;
-                page.line("FAILED  the scene has mistakes");
+                page.line("FAILED  the scene cannot be run");
                 tell(reason);
             }
             Tested::Ran { verdict, ending } => {
@@ -84,9 +84,9 @@ impl Totals {
 
     fn words(&self) -> String {
         let mut words = format!("{} in {}", self.tally.words(), counted(self.scenes as u64, "scene"));
-        for (count, what) in [(self.refused, "scene with mistakes"), (self.failed_runs, "run that failed")] {
+        for (count, what) in [(self.refused, "scenes that cannot be run"), (self.failed_runs, "runs that failed")] {
             if count > 0 {
-                words += &format!("; {count} {what}");
+                words += &format!("; {what}: {count}");
             }
         }
         words

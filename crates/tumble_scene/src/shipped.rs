@@ -20,7 +20,24 @@ macro_rules! shipped {
 }
 
 /// Every shipped scene, by name.
-pub const SHIPPED: &[Shipped] = shipped!["homework_rods"];
+pub const SHIPPED: &[Shipped] = shipped![
+    "angle_of_repose",
+    "bouncing_rod",
+    "box_stack",
+    "dominoes",
+    "drag_terminal_velocity",
+    "head_on",
+    "homework_rods",
+    "homework_rods_impulse",
+    "newtons_cradle",
+    "pinned_rod_pendulum",
+    "quiz_pushed_block",
+    "rod_hits_floor_at_angle",
+    "rod_pile",
+    "rolling_disc",
+    "spring_pendulum",
+    "stopping_distance",
+];
 
 /// The scene that runs when none is named.
 pub const DEFAULT_SCENE: &str = "homework_rods";
@@ -31,9 +48,17 @@ impl Shipped {
         SHIPPED.iter().copied().find(|scene| scene.name == name)
     }
 
-    /// The name that is nearest to one that does not exist, if any is near.
-    pub fn nearest(name: &str) -> Option<&'static str> {
-        nearest(name, SHIPPED.iter().map(|scene| scene.name))
+    /// Names that may have been meant by one that does not exist: the nearest one, and those that contain it.
+    pub fn near(name: &str) -> Vec<&'static str> {
+        let names = || SHIPPED.iter().map(|scene| scene.name);
+        let mut near: Vec<&str> = nearest(name, names()).into_iter().collect();
+        let lower = name.to_lowercase();
+        if !lower.is_empty() {
+            near.extend(names().filter(|known| known.contains(&lower)));
+        }
+        near.sort_unstable();
+        near.dedup();
+        near
     }
 
     /// Reads it.
@@ -75,8 +100,10 @@ mod tests {
     }
 
     #[test]
-    fn a_slip_leads_to_the_scene_that_was_meant() {
-        assert_eq!(Shipped::nearest("homework_rod"), Some("homework_rods"));
-        assert_eq!(Shipped::nearest("zebra"), None);
+    fn a_slip_or_a_piece_leads_to_the_scene_that_was_meant() {
+        assert_eq!(Shipped::near("newton_cradel"), ["newtons_cradle"]);
+        assert_eq!(Shipped::near("homework"), ["homework_rods", "homework_rods_impulse"]);
+        assert_eq!(Shipped::near("zebra"), [""; 0]);
+        assert_eq!(Shipped::near(""), [""; 0]);
     }
 }
