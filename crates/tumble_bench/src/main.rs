@@ -51,7 +51,10 @@ struct Arguments {
 
 fn contact_model(word: &str) -> Result<ContactModel, String> {
     let known = || ContactModel::ALL.map(ContactModel::word).join(", ");
-    ContactModel::ALL.into_iter().find(|model| model.word() == word).ok_or_else(|| format!("expected one of: {}", known()))
+    ContactModel::ALL
+        .into_iter()
+        .find(|model| model.word() == word)
+        .ok_or_else(|| format!("expected one of: {}", known()))
 }
 
 fn main() -> ExitCode {
@@ -102,7 +105,11 @@ fn spread(arguments: &Arguments) -> Result<(), StepError> {
     }
     let (few, many) = (few.microseconds / 1_000.0, many.microseconds / 10_000.0);
     println!("spread-out rods,  1000      {:8.4} µs a step and body", few);
-    println!("spread-out rods, 10000      {:8.4} µs a step and body   ratio {:.2} (aim: at most 1.5)", many, many / few);
+    println!(
+        "spread-out rods, 10000      {:8.4} µs a step and body   ratio {:.2} (aim: at most 1.5)",
+        many,
+        many / few
+    );
     Ok(())
 }
 

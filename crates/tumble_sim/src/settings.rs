@@ -87,8 +87,9 @@ impl Default for SpringDamperSettings {
 pub struct ImpulseSettings {
     /// Most sweeps of the velocity filter, and of the position filter, per step [1].
     ///
-    /// Default as many as keep each of them near 50 000 single points, but at least 10 and at most 500: small scenes are solved to the
-    /// tolerance, and large ones take several steps to settle. More settles tall stacks sooner.
+    /// Default as many as keep the velocity filter near 50 000 single points (the position filter near 200 000), but at least 10 (30) and
+    /// at most 500: small scenes are solved to the tolerance, and large ones take several steps to settle. More settles tall
+    /// stacks sooner.
     pub iterations: Option<u32>,
     /// A sweep that changes no point's speed by more than this is the last [m/s per length scale]. Default 1e-12.
     pub tolerance: f64,
@@ -168,6 +169,14 @@ impl<D: Dim> Settings<D> {
     /// Most sweeps over `rows` contact points [1].
     pub fn sweeps(&self, rows: usize) -> u32 {
         let budget = || (50_000 / rows.max(1)).clamp(10, 500) as u32;
+        self.impulse.iterations.unwrap_or_else(budget)
+    }
+
+    /// Most sweeps of the position filter over `rows` contact points [1].
+    ///
+    /// More than the velocity filter gets, because what it leaves undone is an overlap; most steps end after a few.
+    pub fn position_sweeps(&self, rows: usize) -> u32 {
+        let budget = || (200_000 / rows.max(1)).clamp(30, 500) as u32;
         self.impulse.iterations.unwrap_or_else(budget)
     }
 

@@ -92,6 +92,10 @@ function showPlaying() {
 }
 
 /** Draws once before the next frame, however often it is called. */
+/** Arrows of a crowd begin shorter, so that they do not bury the bodies. */
+const crowd = Math.max(1, recording.contact_starts.reduce((most, start, i, starts) => Math.max(most, start - (starts[i - 1] ?? 0)), 0) / 40);
+element("arrow-scale").value = Math.max(-1.5, -0.9 * Math.log10(crowd));
+
 function redraw() {
   if (player.scheduled) return;
   player.scheduled = true;

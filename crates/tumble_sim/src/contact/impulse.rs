@@ -88,7 +88,7 @@ pub fn filter_positions<D: Geometry>(
     // Users may have changed velocities since they were filtered.
     problem.gather_mean_velocities(&bodies);
     let filter = PositionSettings {
-        iterations: settings.sweeps(problem.rows.len()),
+        iterations: settings.position_sweeps(problem.rows.len()),
         tolerance: settings.impulse.tolerance * settings.length_scale,
         slop: settings.slop(),
         recovery: settings.impulse.recovery,
