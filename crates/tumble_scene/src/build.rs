@@ -16,6 +16,7 @@ use tumble_sim::{
 };
 use tumble_solver::Surface;
 
+use crate::check::remember;
 use crate::diagnostics::Diagnostics;
 use crate::expand::ExpandedBody;
 use crate::format::{AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Groups, Scene, SpringEntry};
@@ -106,6 +107,7 @@ impl FromScene for Simulation<Planar> {
             add_force(&mut simulation, force)?;
         }
         simulation.prepare()?;
+        remember(&mut simulation, scene);
         Ok(simulation)
     }
 }
@@ -148,9 +150,9 @@ fn penalty_settings(entry: &PenaltyEntry, length_scale: f64) -> PenaltySettings 
 fn impulse_settings(entry: &ImpulseEntry) -> ImpulseSettings {
     let default = ImpulseSettings::default();
     ImpulseSettings {
-        iterations: entry.iterations.unwrap_or(default.iterations),
+        iterations: entry.iterations,
         colliding_above: entry.colliding_tolerance,
-        impulses_per_contact: entry.max_impulses.unwrap_or(default.impulses_per_contact),
+        impulses_per_contact: entry.max_impulses,
         ..default
     }
 }

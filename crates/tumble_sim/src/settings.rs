@@ -97,15 +97,16 @@ pub struct ImpulseSettings {
     /// of what gravity adds along the normal in a step (half of it for pairs without restitution): slower approaches are left to
     /// the velocity filter of the next step.
     pub colliding_above: Option<f64>,
-    /// Most one-by-one impulses per step and contact point, on average [1]. Default 50.
-    pub impulses_per_contact: u32,
+    /// Most one-by-one impulses per step and contact point, on average [1]. Default as many as keep their number near 20 000, but at
+    /// least 2 and at most 200; what is left approaching then is answered by the next step's velocity filter, and reported.
+    pub impulses_per_contact: Option<u32>,
     /// Part of an overlap beyond the slop that is taken out per step [1]. Default 0.2.
     pub recovery: f64,
 }
 
 impl Default for ImpulseSettings {
     fn default() -> Self {
-        Self { iterations: None, tolerance: 1e-12, colliding_above: None, impulses_per_contact: 50, recovery: 0.2 }
+        Self { iterations: None, tolerance: 1e-12, colliding_above: None, impulses_per_contact: None, recovery: 0.2 }
     }
 }
 
@@ -170,6 +171,12 @@ impl<D: Dim> Settings<D> {
     pub fn sweeps(&self, rows: usize) -> u32 {
         let budget = || (50_000 / rows.max(1)).clamp(10, 500) as u32;
         self.impulse.iterations.unwrap_or_else(budget)
+    }
+
+    /// Most one-by-one impulses per contact point, on average over `rows` of them [1].
+    pub fn impulses_per_contact(&self, rows: usize) -> u32 {
+        let budget = || (20_000 / rows.max(1)).clamp(2, 200) as u32;
+        self.impulse.impulses_per_contact.unwrap_or_else(budget)
     }
 
     /// Most sweeps of the position filter over `rows` contact points [1].

@@ -46,6 +46,8 @@ pub struct Simulation<D: Geometry = Planar> {
     look: Schedule,
     after_step: Vec<Box<dyn FnMut(&mut World) + Send + Sync>>,
     known: BTreeSet<Need>,
+    memories: QueryState<&'static mut ContactMemory<D>>,
+    edited: QueryState<(), Edited<D>>,
     user_forces: usize,
     dim: std::marker::PhantomData<D>,
 }
@@ -83,8 +85,11 @@ impl<D: Geometry> Simulation<D> {
         world.init_resource::<Messages<Touch>>();
         world.init_resource::<Notices>();
         world.init_resource::<Fault>();
+        let (memories, edited) = (world.query(), world.query_filtered());
         Self {
             world,
+            memories,
+            edited,
             step: step_schedule::<D>(),
             begin: begin_schedule(),
             look: look_schedule::<D>(),
@@ -307,8 +312,7 @@ impl<D: Geometry> Simulation<D> {
         *self.world.resource_mut::<Fault>() = Fault::default();
         if self.known.contains(&Need::Detection) {
             self.world.resource_mut::<Messages<Touch>>().update();
-            let mut memories = self.world.query::<&mut ContactMemory<D>>();
-            for mut memory in memories.iter_mut(&mut self.world) {
+            for mut memory in self.memories.iter_mut(&mut self.world) {
                 for point in memory.bypass_change_detection().0.as_mut() {
                     let point: &mut PointMemory<D::Vector> = point;
                     point.given = D::Vector::ZERO;
@@ -322,8 +326,7 @@ impl<D: Geometry> Simulation<D> {
         if !self.known.contains(&Need::Detection) {
             return false;
         }
-        let mut edited = self.world.query_filtered::<(), Edited<D>>();
-        edited.iter(&self.world).next().is_some()
+        self.edited.iter(&self.world).next().is_some()
     }
 
     fn check_fault(&self) -> Result<(), StepError> {

@@ -145,60 +145,80 @@ fn against<V: Vector>(slip: V, fallback: V) -> V {
 const POINTS_WORST_FIRST: usize = 400;
 
 /// Chooses the next colliding point.
-enum Order {
+struct Order {
+    neighbours: Neighbours,
+    ends: Vec<[u32; 2]>,
+    method: Method,
+}
+
+enum Method {
     /// Always the worst. The excess of every point is kept, and looked at again where the last impulse acted.
-    WorstFirst { excesses: Option<Vec<f64>>, neighbours: Neighbours, last: [u32; 2], ends: Vec<[u32; 2]> },
+    WorstFirst { excesses: Vec<f64>, last: Option<usize> },
     /// In rounds: the colliding points of a round in falling order of excess, those skipped that an earlier impulse of the round has
     /// stopped; again until a round finds none. For many points, where always looking for the worst would cost more than the impulses.
-    Rounds { round: Vec<(f64, u32)>, next: usize, points: usize },
+    Rounds {
+        round: Vec<(f64, u32)>,
+        next: usize,
+        /// Points where an impulse of this round has acted, each once: only those can collide in the next round.
+        stirred: Vec<u32>,
+        is_stirred: Vec<bool>,
+    },
 }
 
 impl Order {
     fn of<D: Dim>(bodies: &[SolverBody<D>], rows: &[ContactRow<D>]) -> Self {
-        if rows.len() > POINTS_WORST_FIRST {
-            return Self::Rounds { round: Vec::new(), next: 0, points: rows.len() };
-        }
-        Self::WorstFirst {
-            excesses: None,
-            neighbours: Neighbours::of(bodies, rows),
-            last: [0; 2],
-            ends: rows.iter().map(|row| [row.a, row.b]).collect(),
-        }
+        let method = if rows.len() > POINTS_WORST_FIRST {
+            let all = (0..rows.len() as u32).collect();
+            Method::Rounds { round: Vec::new(), next: 0, stirred: all, is_stirred: vec![true; rows.len()] }
+        } else {
+            Method::WorstFirst { excesses: Vec::new(), last: None }
+        };
+        let ends = rows.iter().map(|row| [row.a, row.b]).collect();
+        Self { neighbours: Neighbours::of(bodies, rows), ends, method }
     }
 
     /// The next colliding point; of equals, the first. `excess` is by how much a point is colliding now, 0 if it is not.
     fn next(&mut self, excess: impl Fn(usize) -> f64) -> Option<usize> {
-        match self {
-            Self::WorstFirst { excesses, neighbours, last, ends } => {
-                let excesses = match excesses {
-                    Some(known) => {
-                        for &i in neighbours.of_bodies(last[0], last[1]) {
-                            known[i as usize] = excess(i as usize);
+        match &mut self.method {
+            Method::WorstFirst { excesses, last } => {
+                match last {
+                    Some(last) => {
+                        for &i in self.neighbours.of_bodies(self.ends[*last]) {
+                            excesses[i as usize] = excess(i as usize);
                         }
-                        known
                     }
-                    None => excesses.insert((0..ends.len()).map(excess).collect()),
-                };
-                let mut worst = (None, 0.0);
+                    None => excesses.extend((0..self.ends.len()).map(excess)),
+                }
+                let mut worst = 0.0;
+                *last = None;
                 for (i, excess) in excesses.iter().enumerate() {
-                    if *excess > worst.1 {
-                        worst = (Some(i), *excess);
+                    if *excess > worst {
+                        (worst, *last) = (*excess, Some(i));
                     }
                 }
-                *last = ends[worst.0?];
-                worst.0
+                *last
             }
-            Self::Rounds { round, next, points } => loop {
-                while let Some((_, i)) = round.get(*next) {
+            Method::Rounds { round, next, stirred, is_stirred } => loop {
+                while let Some(&(_, i)) = round.get(*next) {
                     *next += 1;
-                    if excess(*i as usize) > 0.0 {
-                        return Some(*i as usize);
+                    if excess(i as usize) > 0.0 {
+                        for &neighbour in self.neighbours.of_bodies(self.ends[i as usize]) {
+                            if !std::mem::replace(&mut is_stirred[neighbour as usize], true) {
+                                stirred.push(neighbour);
+                            }
+                        }
+                        return Some(i as usize);
                     }
                 }
                 *next = 0;
                 round.clear();
-                let colliding = (0..*points).map(|i| (excess(i), i as u32)).filter(|(excess, _)| *excess > 0.0);
-                round.extend(colliding);
+                for i in stirred.drain(..) {
+                    is_stirred[i as usize] = false;
+                    let excess = excess(i as usize);
+                    if excess > 0.0 {
+                        round.push((excess, i));
+                    }
+                }
                 round.sort_unstable_by(|x, y| y.0.total_cmp(&x.0).then(x.1.cmp(&y.1)));
                 if round.is_empty() {
                     return None;
@@ -240,7 +260,7 @@ impl Neighbours {
     }
 
     /// Rows at either body; a row between both comes twice, which costs a look and changes nothing.
-    fn of_bodies(&self, a: u32, b: u32) -> impl Iterator<Item = &u32> {
+    fn of_bodies(&self, [a, b]: [u32; 2]) -> impl Iterator<Item = &u32> {
         let of = |body: u32| &self.rows[self.starts[body as usize] as usize..self.starts[body as usize + 1] as usize];
         of(a).iter().chain(of(b))
     }

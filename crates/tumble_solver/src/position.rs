@@ -31,6 +31,9 @@ pub struct PositionSettings {
     pub recovery: f64,
 }
 
+/// Gaps up to this many times the largest displacement that is asked for take part from the start [1].
+const REACH: f64 = 4.0;
+
 /// Displacements to be added to this step's motion: one per body, as velocities of a step of one second.
 #[derive(Clone, Debug)]
 pub struct Displacements<D: Dim> {
@@ -38,11 +41,15 @@ pub struct Displacements<D: Dim> {
     pub bodies: Vec<SolverBody<D>>,
     targets: Vec<f64>,
     sums: Vec<f64>,
+    /// Rows that displacements may reach, in order.
+    active: Vec<u32>,
+    /// K_nn of each row, 0 while it has not been asked for.
+    compliances: Vec<f64>,
 }
 
 impl<D: Dim> Default for Displacements<D> {
     fn default() -> Self {
-        Self { bodies: Vec::new(), targets: Vec::new(), sums: Vec::new() }
+        Self { bodies: Vec::new(), targets: Vec::new(), sums: Vec::new(), active: Vec::new(), compliances: Vec::new() }
     }
 }
 
@@ -65,7 +72,8 @@ impl<D: Dim> Displacements<D> {
             rows.iter()
                 .map(|row| allowed(row.separation, settings) - row.separation - dt * row.separating_speed(bodies)),
         );
-        if self.targets.iter().all(|target| *target <= 0.0) {
+        let worst = self.targets.iter().copied().fold(0.0, f64::max);
+        if worst == 0.0 {
             return false;
         }
 
@@ -75,17 +83,43 @@ impl<D: Dim> Displacements<D> {
             body.angular_velocity = D::Angular::ZERO;
         }
         self.sums.resize(rows.len(), 0.0);
-        for sweep in 0..settings.iterations {
+        self.compliances.clear();
+        self.compliances.resize(rows.len(), 0.0);
+        // Most gaps are wider than any displacement: they are left out until one of them turns out to be in the way.
+        let reach = REACH * worst;
+        self.active.clear();
+        self.active.extend((0..rows.len() as u32).filter(|i| self.targets[*i as usize] > -reach));
+        let mut sweeps_left = settings.iterations;
+        self.sweep(rows, &mut sweeps_left, settings.tolerance);
+        if self.active.len() < rows.len() && self.any_in_the_way(rows) {
+            self.active.clear();
+            self.active.extend(0..rows.len() as u32);
+            self.sweep(rows, &mut sweeps_left, settings.tolerance);
+        }
+        true
+    }
+
+    /// Sweeps over the active rows until they are still.
+    fn sweep(&mut self, rows: &[ContactRow<D>], sweeps_left: &mut u32, tolerance: f64) {
+        let active = std::mem::take(&mut self.active);
+        while *sweeps_left > 0 {
+            *sweeps_left -= 1;
             let mut moved: f64 = 0.0;
-            for i in 0..rows.len() {
-                let i = if sweep % 2 == 1 { rows.len() - 1 - i } else { i };
+            for k in 0..active.len() {
+                let k = if *sweeps_left % 2 == 1 { active.len() - 1 - k } else { k };
+                let i = active[k] as usize;
                 moved = moved.max(self.push_apart(&rows[i], i));
             }
-            if moved <= settings.tolerance {
+            if moved <= tolerance {
                 break;
             }
         }
-        true
+        self.active = active;
+    }
+
+    /// Whether some row goes too far as things are.
+    fn any_in_the_way(&self, rows: &[ContactRow<D>]) -> bool {
+        rows.iter().zip(&self.targets).any(|(row, target)| *target > row.separating_speed(&self.bodies))
     }
 
     /// Whether point i was held in the last call of [`find`](Self::find): without its push it would have gone too far.
@@ -100,7 +134,10 @@ impl<D: Dim> Displacements<D> {
         if missing <= 0.0 && self.sums[i] == 0.0 {
             return 0.0;
         }
-        let compliance = row.normal_compliance(&self.bodies);
+        if self.compliances[i] == 0.0 {
+            self.compliances[i] = row.normal_compliance(&self.bodies);
+        }
+        let compliance = self.compliances[i];
         if compliance <= 0.0 {
             return 0.0;
         }

@@ -92,7 +92,7 @@ pub struct ImpulseEntry {
     /// without restitution.
     #[serde(default)]
     pub colliding_tolerance: Option<f64>,
-    /// Impulses on colliding contacts in each step, at most, per contact [1]. Default 50.
+    /// Impulses on colliding contacts in each step, at most, per contact [1]. Default between 2 and 200, fewer for more contacts.
     #[serde(default)]
     pub max_impulses: Option<u32>,
 }

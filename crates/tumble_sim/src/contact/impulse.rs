@@ -128,7 +128,7 @@ pub fn resolve_impulses<D: Geometry>(
     problem.gather_bodies(&bodies, detection.motions().len());
     let impact = ImpactSettings {
         colliding_above: settings.colliding_above(),
-        impulses_per_contact: settings.impulse.impulses_per_contact,
+        impulses_per_contact: settings.impulses_per_contact(problem.rows.len()),
     };
     let colliding = |row: &ContactRow<D>| -row.separating_speed(&problem.bodies) > impact.colliding_above;
     if !problem.rows.iter().any(colliding) {
