@@ -19,6 +19,7 @@
 //! ```
 
 mod build;
+mod check;
 pub mod diagnostics;
 pub mod expand;
 pub mod expect;
@@ -32,12 +33,15 @@ mod schema;
 pub mod shapes;
 pub mod shipped;
 mod text;
+mod to_scene;
 mod validate;
 mod write;
 
 pub use build::{BuildError, FromScene};
+pub use check::{Check, RunError};
 pub use load::{Loaded, load_table};
 pub use overlap::initial_overlaps;
 pub use path::ScenePath;
 pub use schema::schema;
+pub use to_scene::{ToScene, UnwritableError};
 pub use validate::validate;

@@ -1,0 +1,396 @@
+//! From a simulation to a scene: a world that was built in code, written down.
+//!
+//! ```
+//! use glam::dvec2;
+//! use tumble_scene::ToScene;
+//! use tumble_shape::Disc;
+//! use tumble_sim::{Amount, Part, Position, Settings, Simulation};
+//!
+//! let mut simulation = Simulation::new(Settings::default());
+//! let ball = simulation.spawn(Position(dvec2(0.0, 5.0)));
+//! simulation.attach(ball, Part::new(Disc::try_new(dvec2(0.0, 0.0), 0.1)?, Amount::Mass(2.0)));
+//! assert!(simulation.to_scene()?.to_ron().contains("Disc(radius: 0.1, mass: 2.0)"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod exact;
+mod names;
+
+use bevy_ecs::prelude::{Entity, RelationshipTarget};
+use glam::DVec2;
+use thiserror::Error;
+use tumble_math::{Planar, PlanarRotation, Rotation};
+use tumble_shape::PlanarShape;
+use tumble_sim::{
+    Amount, Anchor, AppliedForce, BodyIndex, BodyTable, BodyView, CentreOverride, GravityScale, IgnoredPairs,
+    ImpulseSettings, InertiaOverride, Keyframes, LinearDrag, Lock, LockedAxes, MassOverride, MaterialId, Materials,
+    Parts, PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings,
+    StepError,
+};
+use tumble_solver::Surface;
+
+use crate::check::Promises;
+use crate::format::{
+    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ContactModel, DiscPart, Drag, ForceEntry, FrictionEntry, Groups,
+    HalfPlanePart, ImpulseEntry, Integrator, Keyframe, MaterialEntry, ModelEntries, PairEntry, Part, PenaltyEntry,
+    PenaltyLaw, PolygonPart, RodPart, Scene, SpringEntry,
+};
+use crate::initial_overlaps;
+use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
+use exact::{before_normalization, before_shift, degrees};
+use names::bodies_named;
+
+/// A simulation written as a scene.
+pub trait ToScene {
+    /// The world as it stands now, as the start of a scene.
+    ///
+    /// A simulation that has not begun to run comes back from its scene bit for bit, provided that the names of its bodies sort
+    /// like their ids and each angle is some number of degrees to the last bit (the nearest is taken).
+    ///
+    /// Bodies are written one by one, repeats unrolled; boxes become polygons. `about`, `duration` and `every` are those of the scene the
+    /// simulation came from, if any; otherwise the duration is 1 s. Expectations about bodies that are gone are left out. What a file
+    /// cannot hold is not written: systems of the user's, and what a run remembers (contact impulses, the time that has passed, so that
+    /// forces and keyframes begin anew).
+    ///
+    /// # Errors
+    ///
+    /// When a body cannot be simulated, or something is set that the format has no word for.
+    fn to_scene(&mut self) -> Result<Scene, UnwritableError>;
+}
+
+/// Why a simulation cannot be written as a scene.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum UnwritableError {
+    /// A body cannot be simulated.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// A setting differs from its default, and scenes have no word for it.
+    #[error("the setting `{0}` cannot be written in a scene")]
+    Setting(&'static str),
+    /// A body has something that scenes have no word for.
+    #[error("body \"{body}\" has {what}, which cannot be written in a scene")]
+    Body {
+        /// Name of the body.
+        body: String,
+        /// What it has.
+        what: &'static str,
+    },
+}
+
+impl ToScene for Simulation<Planar> {
+    fn to_scene(&mut self) -> Result<Scene, UnwritableError> {
+        self.prepare()?;
+        // Springs and forces act in the order in which the world holds them, which is the order of the files they make.
+        let world = self.world_mut();
+        let springs: Vec<Spring<DVec2>> = world.query::<&Spring<DVec2>>().iter(world).copied().collect();
+        let forces: Vec<AppliedForce<Planar>> = world.query::<&AppliedForce<Planar>>().iter(world).cloned().collect();
+        let promises = self.world().get_resource::<Promises>().cloned().unwrap_or_default();
+
+        let mut scene = with_settings(self.settings(), promises.scene.as_ref())?;
+        scene.bodies = bodies(self)?;
+        write_materials(self, &mut scene);
+        scene.springs = springs.iter().filter_map(|spring| spring_entry(self, spring)).collect();
+        scene.forces = forces.iter().filter_map(|force| force_entry(self, force)).collect();
+        let promised = promises.scene.into_iter().flat_map(|scene| scene.expect).chain(promises.added);
+        let is_there = |name: &str| scene.bodies.iter().any(|body| body.name == name);
+        scene.expect = promised.filter(|e| bodies_named(e).into_iter().all(is_there)).collect();
+        // What cannot be looked at cannot overlap either; building the scene will tell what is wrong.
+        scene.allow_overlap =
+            initial_overlaps(&scene, &MaterialLibrary::of_scene(&scene)).is_ok_and(|overlaps| !overlaps.is_empty());
+        Ok(scene)
+    }
+}
+
+/// A scene with settings and nothing in it.
+fn with_settings(settings: &Settings, origin: Option<&Scene>) -> Result<Scene, UnwritableError> {
+    let default = ImpulseSettings::default();
+    if settings.speculative_limit.is_some() {
+        return Err(UnwritableError::Setting("speculative_limit"));
+    }
+    if settings.impulse.tolerance != default.tolerance {
+        return Err(UnwritableError::Setting("impulse.tolerance"));
+    }
+    if settings.impulse.recovery != default.recovery {
+        return Err(UnwritableError::Setting("impulse.recovery"));
+    }
+    let blank = Scene::default();
+    let origin = origin.unwrap_or(&blank);
+    Ok(Scene {
+        about: origin.about.clone(),
+        duration: origin.duration,
+        every: origin.every,
+        dt: settings.dt,
+        gravity: settings.gravity,
+        length_scale: settings.length_scale,
+        slop: settings.slop,
+        integrator: match settings.integrator {
+            tumble_sim::Integrator::SymplecticEuler => Integrator::SymplecticEuler,
+            tumble_sim::Integrator::Ballistic => Integrator::Ballistic,
+        },
+        contact: match settings.contact {
+            tumble_sim::ContactModel::Penalty => ContactModel::Penalty,
+            tumble_sim::ContactModel::Impulse => ContactModel::Impulse,
+        },
+        models: ModelEntries {
+            penalty: penalty_entry(&settings.penalty, settings.length_scale),
+            impulse: ImpulseEntry {
+                iterations: settings.impulse.iterations,
+                colliding_tolerance: settings.impulse.colliding_above,
+                max_impulses: settings.impulse.impulses_per_contact,
+            },
+        },
+        ..blank
+    })
+}
+
+fn penalty_entry(settings: &PenaltySettings, length_scale: f64) -> PenaltyEntry {
+    match settings.law {
+        tumble_sim::PenaltyLaw::SpringDamper(SpringDamperSettings { stiffness, damping, slip_speed }) => {
+            let default = SpringDamperSettings::default().slip_speed * length_scale;
+            let slip_speed = Some(slip_speed).filter(|speed| *speed != default);
+            PenaltyEntry { stiffness, damping, slip_speed, ..PenaltyEntry::default() }
+        }
+        tumble_sim::PenaltyLaw::Lecture { stiffness, viscosity } => PenaltyEntry {
+            law: PenaltyLaw::Lecture,
+            stiffness: Some(stiffness),
+            viscosity: Some(viscosity),
+            ..PenaltyEntry::default()
+        },
+    }
+}
+
+/// Materials that parts are made of, and those of their pairs that do not follow from the materials.
+fn write_materials(simulation: &Simulation, scene: &mut Scene) {
+    let materials = simulation.world().resource::<Materials>();
+    let parts = part_entities(simulation).filter_map(|part| simulation.world().get::<tumble_sim::Part<Planar>>(part));
+    let mut used: Vec<MaterialId> = parts.map(|part| part.material).collect();
+    used.sort_unstable_by_key(|id| materials.name(*id));
+    used.dedup();
+    for &id in &used {
+        let own = materials.surface(id, id);
+        if materials.name(id) != DEFAULT_MATERIAL || own != Surface::default() {
+            let entry = MaterialEntry {
+                static_friction: Some(own.static_friction.into()),
+                kinetic_friction: Some(own.kinetic_friction.into()),
+                restitution: Some(own.restitution),
+            };
+            scene.materials.insert(materials.name(id).to_owned(), entry);
+        }
+    }
+    let library = MaterialLibrary::of_scene(scene);
+    for (index, &a) in used.iter().enumerate() {
+        for &b in &used[index..] {
+            let (name_a, name_b, wanted) = (materials.name(a), materials.name(b), materials.surface(a, b));
+            let follows = library.pair(name_a, name_b).properties;
+            let follows = Surface {
+                static_friction: follows.static_friction,
+                kinetic_friction: follows.kinetic_friction,
+                restitution: follows.restitution,
+            };
+            if follows != wanted {
+                scene.pairs.push(PairEntry {
+                    between: (name_a.to_owned(), name_b.to_owned()),
+                    dry: FrictionEntry {
+                        static_friction: Some(wanted.static_friction.into()),
+                        kinetic_friction: Some(wanted.kinetic_friction.into()),
+                        ..FrictionEntry::default()
+                    },
+                    restitution: Some(wanted.restitution),
+                    ..PairEntry::default()
+                });
+            }
+        }
+    }
+}
+
+fn part_entities(simulation: &Simulation) -> impl Iterator<Item = Entity> {
+    let world = simulation.world();
+    let bodies = world.resource::<BodyTable>().entries().iter();
+    bodies.filter_map(|body| world.get::<Parts>(body.entity)).flat_map(|parts| parts.iter())
+}
+
+/// Every body, in the order of ids.
+fn bodies(simulation: &Simulation) -> Result<Vec<BodyEntry>, UnwritableError> {
+    let world = simulation.world();
+    let table = world.resource::<BodyTable>();
+    let every_group = part_entities(simulation)
+        .filter_map(|part| world.get::<tumble_sim::Part<Planar>>(part))
+        .all(|part| part.groups == tumble_sim::Groups::default());
+    let mut bodies = Vec::with_capacity(table.entries().len());
+    for entry in table.entries() {
+        let Ok(view) = simulation.body(&entry.name) else { continue };
+        let mut body = body(simulation, &view, &entry.name)?;
+        if every_group {
+            // Where nobody has a group of its own, all of them are the same as the first one.
+            (body.groups, body.collides_with) = (Groups::ALL, Groups::ALL);
+        }
+        let ignored = world.resource::<IgnoredPairs>().iter().filter(|(one, _)| *one == entry.id);
+        let others = ignored.filter_map(|(_, other)| table.entries().iter().find(|body| body.id == other));
+        body.ignores = others.map(|other| other.name.clone()).collect();
+        bodies.push(body);
+    }
+    Ok(bodies)
+}
+
+fn body(simulation: &Simulation, view: &BodyView<Planar>, name: &str) -> Result<BodyEntry, UnwritableError> {
+    let entity = simulation.world().entity(view.entity());
+    let centre = -view.from_part_frame(DVec2::ZERO);
+    let angle_degrees = degrees(view.angle());
+    let shift = view.rotation().rotate(centre);
+    let linear = entity.get::<LinearDrag>().copied().unwrap_or_default();
+    let quadratic = entity.get::<QuadraticDrag>().copied().unwrap_or_default();
+    if linear.rotation != 0.0 || quadratic.rotation != 0.0 {
+        return Err(UnwritableError::Body { body: name.to_owned(), what: "drag against rotation" });
+    }
+    let mut body = BodyEntry {
+        name: name.to_owned(),
+        kind: match entity.get::<tumble_sim::BodyKind>().copied().unwrap_or_default() {
+            tumble_sim::BodyKind::Dynamic => BodyKind::Dynamic,
+            tumble_sim::BodyKind::Kinematic => BodyKind::Kinematic,
+            tumble_sim::BodyKind::Static => BodyKind::Static,
+        },
+        at: before_shift(view.position(), shift),
+        angle_degrees,
+        velocity: view.velocity(),
+        angular_velocity: view.angular_velocity(),
+        mass: entity.get::<MassOverride>().map(|mass| mass.0),
+        centre: entity.get::<CentreOverride<DVec2>>().map(|centre| centre.0),
+        inertia: entity.get::<InertiaOverride<f64>>().map(|inertia| inertia.0),
+        gravity_scale: entity.get::<GravityScale>().map_or(1.0, |scale| scale.0),
+        drag: Drag { linear: linear.translation, quadratic: quadratic.translation },
+        pinned: entity.contains::<Pinned>(),
+        locked: entity.get::<LockedAxes<DVec2>>().map(locked_axes).unwrap_or_default(),
+        ..BodyEntry::default()
+    };
+    if let Some(path) = entity.get::<Keyframes<DVec2, f64>>() {
+        // The path gives the velocity.
+        (body.velocity, body.angular_velocity) = (DVec2::ZERO, 0.0);
+        let centre = body.centre.unwrap_or(DVec2::ZERO);
+        let frames = path.0.iter().map(|frame| Keyframe {
+            time: frame.time,
+            at: before_shift(frame.position, PlanarRotation::from_angle(frame.angle).rotate(centre)),
+            angle_degrees: degrees(frame.angle),
+        });
+        body.keyframes = frames.collect();
+    }
+    write_parts(simulation, view.entity(), &mut body);
+    Ok(body)
+}
+
+fn locked_axes(locked: &LockedAxes<DVec2>) -> Vec<Axis> {
+    let axes = [
+        (Axis::X, locked.translation.x != 0.0),
+        (Axis::Y, locked.translation.y != 0.0),
+        (Axis::Angle, locked.rotation == Lock::Locked),
+    ];
+    axes.into_iter().filter(|(_, is_locked)| *is_locked).map(|(axis, _)| axis).collect()
+}
+
+/// Writes the parts; what they have in common goes to the body.
+fn write_parts(simulation: &Simulation, entity: Entity, body: &mut BodyEntry) {
+    let world = simulation.world();
+    let parts = world.get::<Parts>(entity).into_iter().flat_map(|parts| parts.iter());
+    let parts: Vec<&tumble_sim::Part<Planar>> = parts.filter_map(|part| world.get(part)).collect();
+    let Some(first) = parts.first() else { return };
+    let materials = world.resource::<Materials>();
+    let name = |id: MaterialId| Some(materials.name(id).to_owned());
+    let one_material = parts.iter().all(|part| part.material == first.material);
+    let one_group = parts.iter().all(|part| part.groups == first.groups);
+    body.material = name(first.material).filter(|name| one_material && name != DEFAULT_MATERIAL);
+    if one_group {
+        body.groups = Groups::Bits(first.groups.member_of);
+        body.collides_with = Groups::Bits(first.groups.accepts);
+    }
+    body.parts = parts
+        .iter()
+        .map(|part| {
+            let surface = PartOptions {
+                material: name(part.material).filter(|_| !one_material),
+                groups: (!one_group).then_some(Groups::Bits(part.groups.member_of)),
+                collides_with: (!one_group).then_some(Groups::Bits(part.groups.accepts)),
+            };
+            part_entry(part, surface)
+        })
+        .collect();
+}
+
+/// What a part says for itself rather than leaving it to its body.
+struct PartOptions {
+    material: Option<String>,
+    groups: Option<Groups>,
+    collides_with: Option<Groups>,
+}
+
+fn part_entry(part: &tumble_sim::Part<Planar>, options: PartOptions) -> Part {
+    let PartOptions { material, groups, collides_with } = options;
+    let sensor = part.response == Response::Sensor;
+    let (density, mass) = match part.amount {
+        Amount::Density(density) => (Some(density), None),
+        Amount::Mass(mass) => (None, Some(mass)),
+    };
+    match &part.shape {
+        PlanarShape::Rod(rod) => {
+            let (from, to, radius) = (rod.from(), rod.to(), rod.radius());
+            Part::Rod(RodPart { from, to, radius, density, mass, material, sensor, groups, collides_with })
+        }
+        PlanarShape::Disc(disc) => {
+            let (at, radius) = (disc.centre(), disc.radius());
+            Part::Disc(DiscPart { at, radius, density, mass, material, sensor, groups, collides_with })
+        }
+        PlanarShape::ConvexPolygon(polygon) => {
+            let points = polygon.points().to_vec();
+            Part::Polygon(PolygonPart { points, density, mass, material, sensor, groups, collides_with })
+        }
+        PlanarShape::HalfPlane(plane) => {
+            let (normal, offset) = (before_normalization(plane.normal()), plane.offset());
+            Part::HalfPlane(HalfPlanePart { normal, offset, material, sensor, groups, collides_with })
+        }
+    }
+}
+
+/// `None` if a body that it holds is gone, and the spring does nothing.
+fn spring_entry(simulation: &Simulation, spring: &Spring<DVec2>) -> Option<SpringEntry> {
+    let anchor = |anchor: &Anchor<DVec2>| match *anchor {
+        Anchor::World(point) => Some(AnchorEntry::World { point }),
+        Anchor::Body(entity, point) => {
+            let body = body_of(simulation, entity)?;
+            Some(AnchorEntry::Body { name: body.0.to_owned(), point: design_point(&body.1, point) })
+        }
+    };
+    Some(SpringEntry {
+        from: anchor(&spring.a)?,
+        to: anchor(&spring.b)?,
+        stiffness: spring.stiffness,
+        damping: spring.damping,
+        rest_length: Some(spring.rest_length),
+    })
+}
+
+/// `None` if its body is gone, and the force does nothing.
+fn force_entry(simulation: &Simulation, force: &AppliedForce<Planar>) -> Option<ForceEntry> {
+    let (name, body) = body_of(simulation, force.body)?;
+    Some(ForceEntry {
+        on: name.to_owned(),
+        point: design_point(&body, force.point),
+        force: force.force,
+        torque: force.torque,
+        axes: match force.axes {
+            tumble_sim::Axes::World => Axes::World,
+            tumble_sim::Axes::Body => Axes::Body,
+        },
+        from: force.course.from,
+        until: Some(force.course.until).filter(|until| until.is_finite()),
+        factor: force.course.factor.clone(),
+    })
+}
+
+fn body_of(simulation: &Simulation, entity: Entity) -> Option<(&str, BodyView<'_, Planar>)> {
+    let index = simulation.world().get::<BodyIndex>(entity)?;
+    let name = &simulation.world().resource::<BodyTable>().entry(index.0).name;
+    Some((name, simulation.body(name).ok()?))
+}
+
+/// A point of the body frame in the frame of the parts [m]; `None` for the centre of mass.
+fn design_point(body: &BodyView<Planar>, point: DVec2) -> Option<DVec2> {
+    (point != DVec2::ZERO).then(|| before_shift(point, body.from_part_frame(DVec2::ZERO)))
+}
