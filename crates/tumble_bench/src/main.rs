@@ -142,7 +142,7 @@ fn settle(arguments: &Arguments) -> Result<(), StepError> {
 }
 
 fn memory() -> Result<(), StepError> {
-    let rods = bytes_per_body(ALLOCATOR, |count| scenes::spread(count))?;
+    let rods = bytes_per_body(ALLOCATOR, scenes::spread)?;
     println!("memory: {rods:.0} bytes for each body with one rod");
     let compounds = bytes_per_body(ALLOCATOR, |count| scenes::settle(count, ContactModel::Impulse))?;
     println!("memory: {compounds:.0} bytes for each body with three rods, its near pairs included");

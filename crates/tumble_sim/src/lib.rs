@@ -1,4 +1,4 @@
-//! Rigid bodies as components, and the systems that move them. The only crate that knows `bevy_ecs`.
+//! Rigid bodies as components, and the systems that move them. Nothing below this crate has heard of an entity.
 //!
 //! [`Simulation`] owns a world and the schedule of a step; [`schedule`] is the page to read first.
 

@@ -75,12 +75,11 @@ pub(crate) fn prepare_bodies<D: Geometry>(world: &mut World) -> Result<(), BodyE
 
 fn assign_ids<D: Geometry>(world: &mut World) {
     let mut taken = world.query_filtered::<&BodyId, With<Position<D::Vector>>>();
-    let mut next = taken.iter(world).map(|id| id.0 + 1).max().unwrap_or(0);
+    let next = taken.iter(world).map(|id| id.0 + 1).max().unwrap_or(0);
     let mut nameless = world.query_filtered::<Entity, (With<Position<D::Vector>>, Without<BodyId>)>();
     let nameless: Vec<Entity> = nameless.iter(world).collect();
-    for entity in nameless {
-        world.entity_mut(entity).insert(BodyId(next));
-        next += 1;
+    for (id, entity) in (next..).zip(nameless) {
+        world.entity_mut(entity).insert(BodyId(id));
     }
 }
 
