@@ -195,8 +195,8 @@ impl Reading {
     ///                           v₀ = v − ½ a_n Δt    symplectic Euler, whose velocities run half a step ahead
     /// ```
     ///
-    /// With it, ε = 1 keeps the (discrete) energy exactly. A point that touched before the step approaches by what solver and
-    /// round-off left, which restitution does not answer.
+    /// With it, ε = 1 keeps the (discrete) energy exactly. A point that touched before the step, or that the velocity filter held
+    /// back in it, approaches by what solver and round-off left, which restitution does not answer.
     fn approach<D: Geometry>(
         &self,
         row: &ContactRow<D>,
@@ -205,7 +205,9 @@ impl Reading {
         detection: &Detection<D>,
     ) -> Approach {
         let touched_before = memory.separation_before.is_some_and(|separation| separation <= self.touch_tolerance);
-        if touched_before {
+        // A point with a gap that the velocity filter held back in this step rests too: its velocity has lost what forces added.
+        let held_back = memory.given[0] > 0.0;
+        if touched_before || held_back {
             let ignored = approach.max(0.0);
             return Approach { correction: -ignored, ignored, ..Approach::default() };
         }
