@@ -13,7 +13,8 @@
 //! Method: Gauss–Seidel over the points, forwards and backwards in turn, begun with the impulses of the last step (warm starting), until
 //! no point's speed changes by more than a tolerance. Two coefficients are met in two stages: first every sticking point may use μ_s; a
 //! point that slips all the same is sliding, and a second stage solves again with μ_k for the sliding points. A sliding point
-//! whose friction suffices to stop it sticks again.
+//! whose friction suffices to stop it sticks again, and so does one whose friction turned round: its slip passed through rest, where μ_s
+//! counts.
 //!
 //! Good at: rest, stacks, any size. Bad at: tall stacks and large mass ratios from a cold start (many sweeps; warm starting
 //! spreads them over steps).
@@ -39,6 +40,8 @@ pub struct PreparedRow<D: Dim> {
     compliance: D::Matrix,
     /// 1 / K_ii; 0 where nothing yields [kg].
     inverse_diagonal: D::Vector,
+    /// Friction impulse of the step before, in the contact frame [N·s].
+    friction_before: D::Vector,
 }
 
 /// Filters the velocities of `bodies` through touching contacts; `rows[i].impulse` and `slip` are updated.
@@ -57,16 +60,20 @@ pub fn filter_velocities<D: Dim>(
     }
 
     let first = sweep_until_still(bodies, rows, prepared, settings);
-    let mut any_broke_away = false;
-    for row in rows.iter_mut().filter(|row| row.slip == Slip::Sticking) {
-        if slips(row, bodies, row.surface.static_friction, settings.tolerance) {
-            row.slip = Slip::Sliding;
-            any_broke_away = true;
-        }
+    let mut any_changed = false;
+    for (row, prepared) in rows.iter_mut().zip(prepared.iter()) {
+        let passed_through_rest = tangential(row.impulse).dot(prepared.friction_before) < 0.0;
+        let slip = match row.slip {
+            Slip::Sticking if slips(row, bodies, row.surface.static_friction, settings.tolerance) => Slip::Sliding,
+            Slip::Sliding if passed_through_rest => Slip::Sticking,
+            unchanged => unchanged,
+        };
+        any_changed |= slip != row.slip;
+        row.slip = slip;
     }
     // The second stage begins near its answer.
     let again = FilterSettings { iterations: settings.iterations.div_ceil(2), ..*settings };
-    let second = any_broke_away.then(|| sweep_until_still(bodies, rows, prepared, &again));
+    let second = any_changed.then(|| sweep_until_still(bodies, rows, prepared, &again));
     for row in rows.iter_mut().filter(|row| row.slip == Slip::Sliding) {
         if !slips(row, bodies, row.surface.kinetic_friction, settings.tolerance) {
             row.slip = Slip::Sticking;
@@ -84,7 +91,7 @@ fn prepare<D: Dim>(row: &ContactRow<D>, bodies: &[SolverBody<D>]) -> PreparedRow
         let diagonal = compliance.column(axis)[axis];
         inverse_diagonal[axis] = if diagonal > 0.0 { 1.0 / diagonal } else { 0.0 };
     }
-    PreparedRow { compliance, inverse_diagonal }
+    PreparedRow { compliance, inverse_diagonal, friction_before: tangential(row.impulse) }
 }
 
 /// Whether friction is used up and the point slips all the same.
@@ -121,7 +128,7 @@ fn sweep_until_still<D: Dim>(
 /// Solves one point with all others as they are: first its normal, then its friction; returns how much its speed changed [m/s].
 #[inline]
 fn solve_point<D: Dim>(bodies: &mut [SolverBody<D>], row: &mut ContactRow<D>, prepared: &PreparedRow<D>) -> f64 {
-    let PreparedRow { compliance, inverse_diagonal } = prepared;
+    let PreparedRow { compliance, inverse_diagonal, .. } = prepared;
     let velocity = row.relative_velocity(bodies);
     let normal = (row.impulse[0] - (velocity[0] + row.allowance) * inverse_diagonal[0]).max(0.0);
     // K says what the normal change does to the slip, so the bodies need to be asked only once.
