@@ -72,7 +72,6 @@ fn c2_siconos_ball_settles_without_chatter() {
         assert_near(bounces[0].0, 0.428352936878, 0.005);
         // Two steps per bounce, as for C1.
         let last = bounces.last().unwrap().0;
-        println!("{integrator:?}: {} bounces, last at {last} s, exact 8.1387", bounces.len());
         assert_near(last, 8.13870580068, 0.01 * bounces.len() as f64);
         assert_eq!(body(&simulation, "ball").velocity(), DVec2::ZERO);
         assert_near(body(&simulation, "ball").position().y, 0.1, CAUGHT_WITHIN);
@@ -116,7 +115,6 @@ fn c3_head_on_collision_under_penalty() {
         let mut simulation = head_on(Settings { contact: ContactModel::Penalty, ..weightless(dt) }, 0.0);
         simulation.run_for(0.5).unwrap();
         let (left, right) = (body(&simulation, "left").velocity(), body(&simulation, "right").velocity());
-        println!("dt {dt}: {left} {right} e = {}", (right.x - left.x) / 5.0);
         assert_near(2.0 * left.x + 3.0 * right.x, 5.0, 1e-12);
         assert_near((right.x - left.x) / 5.0, 0.6, 0.1);
     }
@@ -232,7 +230,6 @@ fn c7_rod_that_arrives_within_a_step_differs_by_the_angle_at_which_it_is_set_dow
             let rod = body(&simulation, "rod");
             *error = (rod.velocity().y - speed).hypot_of(rod.angular_velocity() - spin);
         }
-        println!("{degrees}: {errors:?}");
         // Set down by turning: 3/4 h m of overshoot over a metre, so errors are of first order in h.
         assert!(errors[2] < 10.0 * 1e-3, "{errors:?}");
         assert_near(errors[0] / errors[1], 2.0, 0.2);
@@ -323,7 +320,6 @@ fn c12_rod_with_friction_follows_the_one_shot_law() {
     ];
     for (degrees, v_t, v_n, friction, restitution, p_t, p_n, after) in cases {
         let found = rod_impact(degrees, dvec2(v_t, v_n), friction, restitution);
-        println!("{degrees} {v_t} {v_n} {friction}: {} {}", found.impulse, found.contact_velocity);
         // The case gives 12 digits.
         assert_vector_near(found.impulse, dvec2(p_t, p_n), 5e-12);
         // The arm turns by h ω within the step, which moves the contact by 1e-9 m and less.
@@ -411,7 +407,6 @@ fn c15_flat_box_rises_again_under_penalty() {
     for inset in [0.0, 0.2] {
         let settings = Settings { contact: ContactModel::Penalty, ..every(1e-4) };
         let (apex, _) = flat_drop(settings, inset, 0.9);
-        println!("inset {inset}: {apex}");
         // Contacts at once: no spin. An undamped spring, sampled 30 times per period, and the time it is pressed in: one per cent.
         assert_near(apex, 1.0, 0.01);
     }
@@ -421,7 +416,6 @@ fn c15_flat_box_rises_again_under_penalty() {
 fn c15_known_limit_flat_box_is_turned_by_one_by_one_impulses() {
     for (inset, apex_measured) in [(0.0, 0.9138), (0.2, 0.99)] {
         let (apex, energy) = flat_drop(every(1e-3), inset, 20.0);
-        println!("inset {inset}: apex {apex}, energy {energy}");
         // One after the other, the corners turn the box, so that some of the energy is spin: the figures measured.
         assert!(apex < 1.0, "apex {apex}, measured before {apex_measured}");
         // Symplectic Euler's half step of gravity is given back per point, exact for one point only; with coupled points energy

@@ -3,7 +3,9 @@
 mod support;
 
 use glam::{DVec2, dvec2};
-use support::{G, assert_near, assert_vector_near, ball, block, body, direction, every, floor, incline, rough, simulation};
+use support::{
+    G, assert_near, assert_vector_near, ball, block, body, direction, every, floor, incline, rough, simulation,
+};
 use support::{contact_force, momentum, weightless};
 use tumble_math::{Planar, trig};
 use tumble_sim::{
@@ -152,7 +154,6 @@ fn d3_quiz_converges_to_the_closed_form() {
         let block = body(&simulation, "block");
         [(block.velocity().x - 16.534166).abs(), (block.position().x - 28.2083266667).abs()]
     });
-    println!("{errors:?}");
     // First order: a tenth of the step, about a tenth of the error; the break-away falls anywhere within its step.
     assert!(errors[1][0] < 0.015 && errors[1][1] < 0.05);
 }
@@ -189,7 +190,6 @@ fn d4_stopping_distance_under_the_ballistic_integrator_and_penalty() {
         floor(&mut simulation);
         block(1.0, 0.25, 1.0).at(0.0, 0.125).moving(3.0, 0.0).spawn(&mut simulation, "block");
         simulation.run_for(2.0).unwrap();
-        println!("{name}: {}", body(&simulation, "block").position().x);
         assert_near(body(&simulation, "block").position().x, 1.52905198777, within);
     }
 }
@@ -256,7 +256,6 @@ fn d6_slip_becomes_roll() {
         assert_near(found_way, way + speed * (found_time - time), 1e-3 * way);
         // The rolling speed follows from angular momentum about the contact alone: round-off.
         assert_near(body(&simulation, "ball").velocity().x, speed, 1e-10);
-        println!("{name}: {found_time} {time}");
     }
 }
 
@@ -282,7 +281,6 @@ fn d7_wheel_rolls_or_slips_down_the_slope() {
             // Constant accelerations: round-off of 1000 steps of the filter.
             assert_near(speed, expected, 1e-9);
             assert_near(ball.angular_velocity(), spin, 1e-8);
-            println!("{name}");
         }
     }
 }
@@ -312,7 +310,6 @@ fn d10_stick_slip_on_a_belt() {
         }
         slipping = slip;
     }
-    println!("{slips:?} {sticks:?}");
     for (slip, stick) in slips.iter().zip(&sticks) {
         // One per cent at h = 1e-3, and a belt's travel within a step.
         assert_near(slip.1, 0.04905, 0.01 * 0.04905);
@@ -335,7 +332,6 @@ fn d12_box_slides_or_tips_whichever_comes_first() {
             simulation.run_for(5.0).unwrap();
             let turned = (body(&simulation, "block").angle() - degrees.to_radians()).abs();
             let (way, _) = down_slope(&simulation, degrees);
-            println!("{friction} {degrees}: way {way}, turned {turned}");
             assert_eq!(turned > 1e-6, happens && first == "tips", "μ {friction}, {degrees}°: turned by {turned}");
             assert_eq!(way > 1e-6, happens, "μ {friction}, {degrees}°: moved by {way}");
         }
@@ -397,7 +393,6 @@ fn d13_known_limit_setting_down_within_a_step_moves_angular_momentum_to_first_or
         let start = BEFORE_GRAZING.1 + 1.6 * 2.8 * 2.5 * h;
         (support::angular_momentum(&simulation) - start).abs()
     });
-    println!("{errors:?}");
     // Bodies are pushed back onto each other's surface along the normal while they also pass each other: Δx × m v.
     assert_near(errors[0] / errors[1], 2.0, 0.2);
     assert_near(errors[1] / errors[2], 2.0, 0.2);
