@@ -29,8 +29,7 @@ fn e15_domino_turns_about_its_edge_without_losing_touch() {
     let corner = dvec2(0.5 * width, -0.5 * height);
     let centre = -tumble_math::Rotation::rotate(&rotation, corner);
     let domino = simulation.spawn((Name::new("domino"), Position(centre), Orientation(rotation)));
-    let shape =
-        ConvexPolygon::try_new(&[corner, -corner.with_x(-corner.x), -corner, corner.with_x(-corner.x)]).unwrap();
+    let shape = ConvexPolygon::try_new([corner, -corner.with_x(-corner.x), -corner, corner.with_x(-corner.x)]).unwrap();
     simulation.attach(domino, Part::new(PlanarShape::ConvexPolygon(shape), Amount::Mass(0.1)));
     simulation.run_for(0.2591).unwrap();
     let domino = simulation.body("domino").unwrap();
