@@ -1,0 +1,63 @@
+//! Every shipped scene runs, and keeps what it promises: under its own contact model, and under every other for which it claims anything.
+
+use std::error::Error;
+
+use tumble::prelude::*;
+use tumble::scene::format::ContactModel;
+use tumble::scene::shipped::SHIPPED;
+
+/// Runs a scene under each model that it says something about.
+fn keeps_its_promises(name: &str) -> Result<(), Box<dyn Error>> {
+    let loaded = Shipped::named(name).ok_or("no such scene")?.load()?;
+    assert!(!loaded.scene.expect.is_empty(), "a shipped scene promises something");
+    for model in ContactModel::ALL {
+        let own = loaded.scene.contact == model;
+        if !own && !loaded.scene.expect.iter().any(|expectation| expectation.is_claimed_under(model)) {
+            continue;
+        }
+        let mut loaded = loaded.clone();
+        loaded.scene.contact = model;
+        let mut simulation = Simulation::from_loaded(&loaded)?;
+        simulation.run_scene()?;
+        let verdict = simulation.check();
+        assert!(verdict.passed(), "{name} under {}:\n{verdict}", model.word());
+        assert!(!own || verdict.count(Status::Met) > 0, "{name} claims nothing under its own model");
+    }
+    Ok(())
+}
+
+macro_rules! scenes {
+    ($($name:ident),* $(,)?) => {
+        $(
+            #[test]
+            fn $name() -> Result<(), Box<dyn Error>> {
+                keeps_its_promises(stringify!($name))
+            }
+        )*
+
+        #[test]
+        fn no_scene_is_left_out() {
+            let shipped: Vec<&str> = SHIPPED.iter().map(|scene| scene.name).collect();
+            assert_eq!(shipped, [$(stringify!($name)),*]);
+        }
+    };
+}
+
+scenes! {
+    angle_of_repose,
+    bouncing_rod,
+    box_stack,
+    dominoes,
+    drag_terminal_velocity,
+    head_on,
+    homework_rods,
+    homework_rods_impulse,
+    newtons_cradle,
+    pinned_rod_pendulum,
+    quiz_pushed_block,
+    rod_hits_floor_at_angle,
+    rod_pile,
+    rolling_disc,
+    spring_pendulum,
+    stopping_distance,
+}
