@@ -63,6 +63,23 @@ fn c1_bouncing_ball_keeps_its_times_and_heights_and_comes_to_rest() {
 }
 
 #[test]
+fn elastic_ball_neither_gains_nor_loses_height_in_a_minute() {
+    for integrator in BOTH {
+        let mut simulation = simulation(Settings { integrator, ..every(0.01) }, bouncing(1.0));
+        floor(&mut simulation);
+        ball(0.1, 1.0).at(0.0, 1.1).spawn(&mut simulation, "ball");
+        simulation.run_for(58.9).unwrap();
+        let mut apex: f64 = 0.0;
+        for _ in 0..100 {
+            simulation.step().unwrap();
+            apex = apex.max(body(&simulation, "ball").position().y - 0.1);
+        }
+        // Apexes fall between samples: by at most g Δt²/8.
+        assert_near(apex, 1.0, G * 1e-4 / 8.0 + 1e-9);
+    }
+}
+
+#[test]
 fn c2_siconos_ball_settles_without_chatter() {
     for integrator in BOTH {
         let mut simulation = simulation(Settings { integrator, ..every(0.005) }, bouncing(0.9));
