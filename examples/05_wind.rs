@@ -8,7 +8,6 @@
 
 use std::error::Error;
 
-use tumble::bevy_ecs;
 use tumble::math::trig;
 use tumble::prelude::*;
 

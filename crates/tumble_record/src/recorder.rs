@@ -283,12 +283,8 @@ impl Recorder {
         let clock = world.resource::<Clock>();
         let mut states = vec![None; self.recording.bodies.len()];
         for (index, x, rotation, v, w, ..) in bodies.iter_manual(world) {
-            states[self.of_rank[index.0 as usize]] = Some(BodyState {
-                position: x.0,
-                angle: rotation.0.angle(),
-                velocity: v.0,
-                angular_velocity: w.0,
-            });
+            states[self.of_rank[index.0 as usize]] =
+                Some(BodyState { position: x.0, angle: rotation.0.angle(), velocity: v.0, angular_velocity: w.0 });
         }
         let tolerance = world.resource::<Settings<Planar>>().touch_tolerance();
         let mut touching: Vec<_> =

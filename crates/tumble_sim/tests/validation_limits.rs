@@ -3,15 +3,19 @@
 mod support;
 
 use glam::{DVec2, dvec2};
-use support::{G, assert_near, assert_vector_near, ball, body, bouncing, direction, every, floor, rod, simulation};
 use support::weightless;
+use support::{G, assert_near, assert_vector_near, ball, body, bouncing, direction, every, floor, rod, simulation};
 use tumble_math::trig;
 use tumble_sim::{ContactModel, PenaltyLaw, PenaltySettings, Settings, SpringDamperSettings};
 use tumble_solver::penalty::{damping_coefficient, damping_ratio};
 
 fn penalty(settings: Settings, stiffness: f64, damping: Option<f64>) -> Settings {
     let law = SpringDamperSettings { stiffness: Some(stiffness), damping, ..SpringDamperSettings::default() };
-    Settings { contact: ContactModel::Penalty, penalty: PenaltySettings { law: PenaltyLaw::SpringDamper(law) }, ..settings }
+    Settings {
+        contact: ContactModel::Penalty,
+        penalty: PenaltySettings { law: PenaltyLaw::SpringDamper(law) },
+        ..settings
+    }
 }
 
 /// Velocity and spin after contact of a rod (length 2, 1 kg) that falls on the floor with 3 m/s, one end first, on springs of 4ⁿ · 10⁶ N/m.
