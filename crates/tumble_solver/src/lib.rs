@@ -14,6 +14,8 @@ pub mod body;
 pub mod contact;
 pub mod filter;
 pub mod impact;
+pub mod island;
+pub mod joint;
 pub mod penalty;
 pub mod position;
 mod report;

@@ -1,0 +1,288 @@
+//! Joints on plain slices: their rows against finite differences, and the block against mechanics.
+
+use glam::{DVec2, dvec2};
+use proptest::prelude::*;
+use tumble_math::{Dim, Planar};
+use tumble_solver::joint::{JointBlock, JointEnds, JointError, JointRow, distance, fixed, prismatic, revolute};
+use tumble_solver::{ContactRow, Slip, SolverBody, Surface};
+
+type Body = SolverBody<Planar>;
+type Row = JointRow<Planar>;
+
+const FLOOR: Body =
+    Body { velocity: DVec2::ZERO, angular_velocity: 0.0, inverse_mass: DVec2::ZERO, inverse_inertia: 0.0 };
+
+fn body(mass: f64, inertia: f64) -> Body {
+    Body { inverse_mass: DVec2::splat(1.0 / mass), inverse_inertia: 1.0 / inertia, ..FLOOR }
+}
+
+/// ½ m v² + ½ I ω² of all bodies that can move [J].
+fn kinetic_energy(bodies: &[Body]) -> f64 {
+    let of = |body: &Body| {
+        let linear = if body.inverse_mass.x > 0.0 { body.velocity.length_squared() / body.inverse_mass.x } else { 0.0 };
+        let angular =
+            if body.inverse_inertia > 0.0 { body.angular_velocity.powi(2) / body.inverse_inertia } else { 0.0 };
+        0.5 * (linear + angular)
+    };
+    bodies.iter().map(of).sum()
+}
+
+fn turned(v: DVec2, angle: f64) -> DVec2 {
+    let (sine, cosine) = tumble_math::trig::sin_cos(angle);
+    dvec2(cosine * v.x - sine * v.y, sine * v.x + cosine * v.y)
+}
+
+/// Two bodies with a constant velocity and rate of turn, seen at a time.
+struct Motion {
+    places: [DVec2; 2],
+    velocities: [DVec2; 2],
+    rates: [f64; 2],
+    arms: [DVec2; 2],
+}
+
+impl Motion {
+    fn bodies(&self) -> [Body; 2] {
+        [0, 1].map(|i| Body { velocity: self.velocities[i], angular_velocity: self.rates[i], ..body(2.0, 0.5) })
+    }
+
+    fn ends(&self, t: f64) -> JointEnds<Planar> {
+        let place = |i: usize| self.places[i] + self.velocities[i] * t;
+        let arm = |i: usize| turned(self.arms[i], self.rates[i] * t);
+        JointEnds::at((0, place(0), arm(0)), (1, place(1), arm(1)))
+    }
+
+    /// Rows of all kinds at a time.
+    fn rows(&self, t: f64) -> Vec<Row> {
+        let (ends, bodies) = (self.ends(t), self.bodies());
+        let angle = (self.rates[1] - self.rates[0]) * t;
+        let mut rows = Vec::new();
+        revolute::push_rows(&ends, &bodies, &mut rows);
+        distance::push_rows(&ends, 0.7, &bodies, &mut rows).unwrap();
+        fixed::push_rows(&ends, angle, &bodies, &mut rows);
+        let axis = turned(dvec2(0.6, 0.8), self.rates[0] * t);
+        prismatic::push_rows(&ends, axis, angle, &bodies, &mut rows).unwrap();
+        rows
+    }
+}
+
+fn vector(size: f64) -> impl Strategy<Value = DVec2> {
+    (-size..size, -size..size).prop_map(|(x, y)| dvec2(x, y))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(7), ..ProptestConfig::default() })]
+
+    #[test]
+    fn speed_and_drift_are_the_derivatives_of_the_error(
+        arms in (vector(1.0), vector(1.0)),
+        velocities in (vector(1.0), vector(1.0)),
+        rates in (-1.0..1.0_f64, -1.0..1.0_f64),
+    ) {
+        let motion = Motion {
+            // Far enough apart for the distance joint to have a direction throughout.
+            places: [DVec2::ZERO, dvec2(4.0, 1.0)],
+            velocities: [velocities.0, velocities.1],
+            rates: [rates.0, rates.1],
+            arms: [arms.0, arms.1],
+        };
+        let h = 1e-4;
+        let (before, now, after) = (motion.rows(-h), motion.rows(0.0), motion.rows(h));
+        for ((b, n), a) in before.iter().zip(&now).zip(&after) {
+            // Central differences: h² of higher derivatives (a few tens), and rounding / h² = 1e-8 in the second.
+            prop_assert!((n.speed(&motion.bodies()) - (a.error - b.error) / (2.0 * h)).abs() < 1e-6);
+            prop_assert!((n.drift - (a.error - 2.0 * n.error + b.error) / (h * h)).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn stopping_keeps_momentum_and_takes_energy(
+        arms in prop::collection::vec(vector(1.0), 6),
+        velocities in prop::collection::vec((vector(3.0), -3.0..3.0_f64), 4),
+        masses in prop::collection::vec(0.1..10.0_f64, 4),
+    ) {
+        let mut bodies: Vec<Body> = masses.iter().zip(&velocities)
+            .map(|(m, (v, w))| Body { velocity: *v, angular_velocity: *w, ..body(*m, 0.3 * m) })
+            .collect();
+        let places: Vec<DVec2> = (0..4).map(|i| dvec2(f64::from(i), 0.0)).collect();
+        let mut rows = Vec::new();
+        for i in 0..3 {
+            // Anchors at one point each, so that the row's forces have no torque between them.
+            let point = places[i] + arms[i];
+            let ends = JointEnds::at((i as u32, places[i], arms[i]), (i as u32 + 1, places[i + 1], point - places[i + 1]));
+            revolute::push_rows(&ends, &bodies, &mut rows);
+        }
+        let momentum = |bodies: &[Body]| bodies.iter().map(|b| b.velocity / b.inverse_mass.x).sum::<DVec2>();
+        let angular = |bodies: &[Body]| bodies.iter().zip(&places)
+            .map(|(b, x)| b.angular_velocity / b.inverse_inertia + Planar::torque(*x, b.velocity / b.inverse_mass.x)).sum::<f64>();
+        let (p, l, energy) = (momentum(&bodies), angular(&bodies), kinetic_energy(&bodies));
+        let mut block = JointBlock::default();
+        block.prepare(&bodies, &rows);
+        let report = block.stop(&mut bodies, &mut rows);
+        prop_assert_eq!(report.redundant, 0);
+        // Speeds of a few m/s, solved twice: a few roundings.
+        prop_assert!(report.residual < 1e-14, "{}", report.residual);
+        prop_assert!((momentum(&bodies) - p).length() < 1e-12 && (angular(&bodies) - l).abs() < 1e-12);
+        prop_assert!(kinetic_energy(&bodies) <= energy * (1.0 + 1e-14));
+    }
+}
+
+#[test]
+fn l5_impulse_on_a_pinned_rod_turns_it_about_its_pin() {
+    // A uniform rod of length 1 and mass 3 pinned at its end has I = m L²/3 about the pin.
+    let rod = body(3.0, 0.25);
+    let mut bodies = [FLOOR, rod];
+    bodies[1].apply_impulse(dvec2(0.5, 0.0), dvec2(0.0, 2.0));
+    let ends = JointEnds::at((0, DVec2::ZERO, DVec2::ZERO), (1, dvec2(0.5, 0.0), dvec2(-0.5, 0.0)));
+    let mut rows = Vec::new();
+    revolute::push_rows(&ends, &bodies, &mut rows);
+    let mut block = JointBlock::default();
+    block.prepare(&bodies, &rows);
+    block.stop(&mut bodies, &mut rows);
+    // ω = J L / (m L²/3) = 2; the pin gives m ω L/2 − J = 1. Exact but for rounding.
+    assert!((bodies[1].angular_velocity - 2.0).abs() < 1e-15);
+    assert!((rows[1].impulse - 1.0).abs() < 1e-15 && rows[0].impulse.abs() < 1e-15);
+}
+
+#[test]
+fn contact_on_a_pinned_rod_yields_like_a_body_about_its_pin() {
+    let bodies = [FLOOR, body(3.0, 0.25), FLOOR];
+    let ends = JointEnds::at((0, DVec2::ZERO, DVec2::ZERO), (1, dvec2(0.5, 0.0), dvec2(-0.5, 0.0)));
+    let mut rows = Vec::new();
+    revolute::push_rows(&ends, &bodies, &mut rows);
+    let mut block = JointBlock::default();
+    block.prepare(&bodies, &rows);
+    let contact = ContactRow::<Planar> {
+        a: 1,
+        b: 2,
+        frame: Planar::contact_frame(-DVec2::Y),
+        arm_a: dvec2(0.5, 0.0),
+        arm_b: DVec2::ZERO,
+        separation: 0.0,
+        allowance: 0.0,
+        surface: Surface::default(),
+        impulse: DVec2::ZERO,
+        slip: Slip::Sticking,
+    };
+    let k = block.compliance(&rows, &contact);
+    // Along the normal L²/(m L²/3) = 1; along the rod nothing yields.
+    assert!((k.x_axis.x - 1.0).abs() < 1e-15 && k.x_axis.y.abs() < 1e-15 && k.y_axis.y.abs() < 1e-15);
+    // Asked again, it has forgotten the first answer.
+    assert_eq!(block.compliance(&rows, &contact), k);
+}
+
+/// Rods of length 1 hanging in a row from the origin along x, pinned together.
+fn chain(rods: u32) -> (Vec<Body>, Vec<Row>) {
+    let bodies: Vec<Body> = std::iter::once(FLOOR).chain((0..rods).map(|_| body(1.0, 1.0 / 12.0))).collect();
+    let mut rows = Vec::new();
+    for i in 0..rods {
+        let (centre, before) = (dvec2(f64::from(i) + 0.5, 0.0), dvec2(f64::from(i) - 0.5, 0.0));
+        let a = if i == 0 { (0, DVec2::ZERO, DVec2::ZERO) } else { (i, before, dvec2(0.5, 0.0)) };
+        revolute::push_rows(&JointEnds::at(a, (i + 1, centre, dvec2(-0.5, 0.0))), &bodies, &mut rows);
+    }
+    (bodies, rows)
+}
+
+#[test]
+fn first_acceleration_of_a_released_rod_is_three_quarters_of_g_at_its_centre() {
+    let (mut bodies, rows) = chain(1);
+    // Accelerations in place of velocities.
+    bodies[1].velocity = dvec2(0.0, -9.81);
+    let mut block = JointBlock::default();
+    block.prepare(&bodies, &rows);
+    let mut forces = vec![0.0; rows.len()];
+    block.accelerate(&mut bodies, &rows, &mut forces);
+    // α = (m g L/2) / (m L²/3) = 3g/2L; the pin carries a quarter of the weight.
+    assert!((bodies[1].velocity.y + 0.75 * 9.81).abs() < 1e-14);
+    assert!((forces[1] - 0.25 * 9.81).abs() < 1e-14);
+}
+
+#[test]
+fn chain_of_forty_rods_stops_to_rounding() {
+    let (mut bodies, mut rows) = chain(40);
+    for (i, body) in bodies.iter_mut().enumerate().skip(1) {
+        body.velocity = dvec2(0.3 * i as f64, -1.0);
+        body.angular_velocity = 2.0 - 0.1 * i as f64;
+    }
+    let mut block = JointBlock::default();
+    block.prepare(&bodies, &rows);
+    let report = block.stop(&mut bodies, &mut rows);
+    assert_eq!(report.redundant, 0);
+    // Speeds up to 12 m/s: a rounding is 2e-15.
+    assert!(report.residual < 1e-13, "{:e}", report.residual);
+}
+
+#[test]
+fn a_pin_given_twice_is_redundant_and_harmless() {
+    let (mut bodies, mut rows) = chain(2);
+    rows.extend(rows[2..].to_vec());
+    bodies[2].velocity = dvec2(1.0, 2.0);
+    let mut block = JointBlock::default();
+    block.prepare(&bodies, &rows);
+    let report = block.stop(&mut bodies, &mut rows);
+    assert_eq!(report.redundant, 2);
+    assert!(report.residual < 1e-14 && report.unreachable < 1e-14, "{report:?}");
+}
+
+#[test]
+fn joints_that_contradict_each_other_are_named() {
+    let (bodies, mut rows) = chain(1);
+    // The same pin again, 0.2 m further right.
+    rows.extend(rows.clone());
+    rows[2].error += 0.2;
+    let mut displacements = bodies.clone();
+    let mut block = JointBlock::default();
+    block.prepare(&bodies, &rows);
+    let report = block.correct(&mut displacements, &rows);
+    assert_eq!((report.redundant, report.unreachable_row), (2, Some(2)));
+    assert!((report.unreachable - 0.2).abs() < 1e-15);
+    assert!(displacements.iter().all(|d| d.velocity.is_finite() && d.angular_velocity.is_finite()));
+}
+
+#[test]
+fn joint_between_bodies_that_cannot_move_is_named_when_it_is_apart() {
+    let bodies = [FLOOR, FLOOR];
+    let ends = JointEnds::at((0, DVec2::ZERO, DVec2::ZERO), (1, dvec2(0.0, 0.1), DVec2::ZERO));
+    let mut rows = Vec::new();
+    revolute::push_rows(&ends, &bodies, &mut rows);
+    let mut block = JointBlock::default();
+    block.prepare(&bodies, &rows);
+    let report = block.correct(&mut bodies.clone(), &rows);
+    assert_eq!((report.redundant, report.unreachable_row, report.unreachable), (2, Some(1), 0.1));
+}
+
+#[test]
+fn slider_crank_has_independent_rows_and_one_correction_closes_it() {
+    // Crank 0.1 at 45°, rod 0.3, slider on the x axis; the rod's far end is 1e-3 off.
+    let (r, l) = (0.1, 0.3);
+    let pin = dvec2(r, r) * std::f64::consts::FRAC_1_SQRT_2;
+    let slider = dvec2(0.362_258_272_861, 0.0);
+    let along = slider - pin;
+    let off = dvec2(1e-3, -5e-4);
+    let bodies = [FLOOR, body(1.0, 1.0 * r * r / 12.0), body(1.0, l * l / 12.0), body(0.5, 1.0)];
+    let mut rows = Vec::new();
+    let crank = 0.5 * pin;
+    let rod = pin + 0.5 * along + off;
+    revolute::push_rows(&JointEnds::at((0, DVec2::ZERO, DVec2::ZERO), (1, crank, -crank)), &bodies, &mut rows);
+    revolute::push_rows(&JointEnds::at((1, crank, crank), (2, rod, -0.5 * along)), &bodies, &mut rows);
+    revolute::push_rows(&JointEnds::at((2, rod, 0.5 * along), (3, slider, DVec2::ZERO)), &bodies, &mut rows);
+    let rail = JointEnds::at((0, DVec2::ZERO, DVec2::ZERO), (3, slider, DVec2::ZERO));
+    prismatic::push_rows(&rail, DVec2::X, 0.0, &bodies, &mut rows).unwrap();
+    let mut block = JointBlock::default();
+    block.prepare(&bodies, &rows);
+    let mut moved = bodies;
+    let report = block.correct(&mut moved, &rows);
+    // Eight rows on nine freedoms: the mechanism keeps its one, and no row is left over.
+    assert_eq!(report.redundant, 0);
+    assert!(report.residual < 1e-16, "{:e}", report.residual);
+}
+
+#[test]
+fn distance_joint_without_a_direction_is_refused() {
+    let bodies = [FLOOR, body(1.0, 1.0)];
+    let ends = JointEnds::at((0, DVec2::ZERO, DVec2::ZERO), (1, DVec2::ZERO, DVec2::ZERO));
+    let mut rows = Vec::new();
+    assert_eq!(distance::push_rows(&ends, 1.0, &bodies, &mut rows), Err(JointError::NoDirection { a: 0, b: 1 }));
+    let bad = distance::push_rows(&ends, f64::NAN, &bodies, &mut rows);
+    assert_eq!(bad, Err(JointError::BadParameter { a: 0, b: 1, quantity: "length" }));
+    assert!(rows.is_empty());
+}
