@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use bevy_ecs::change_detection::Tick;
 use bevy_ecs::message::MessageCursor;
 use bevy_ecs::prelude::*;
-use glam::DVec2;
+use glam::{DVec2, dvec2};
 use tumble_math::{Planar, PlanarRotation, Pose};
 use tumble_shape::PlanarShape;
 use tumble_sim::contact::{Colliders, ContactManifold, ContactMemory, ContactPair};
@@ -20,6 +20,8 @@ use crate::recording::{
     AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, Touch,
     TouchPhase,
 };
+use crate::sampling::Sampling;
+use crate::springs::SpringLog;
 
 /// Recording of a simulation.
 pub trait Record {
@@ -28,7 +30,16 @@ pub trait Record {
     /// # Errors
     ///
     /// When a body cannot be simulated.
-    fn record(&mut self, every: u32) -> Result<(), StepError>;
+    fn record(&mut self, every: u32) -> Result<(), StepError> {
+        self.record_sampled(Sampling::every(every))
+    }
+
+    /// Starts to record: a sample now, after each step that is to be sampled, and of the last step; audits and touches of every step.
+    ///
+    /// # Errors
+    ///
+    /// When a body cannot be simulated.
+    fn record_sampled(&mut self, sampling: Sampling) -> Result<(), StepError>;
 
     /// What was recorded so far, the present included; `None` unless [`record`](Self::record) was called.
     fn recording(&mut self) -> Option<&Recording>;
@@ -38,7 +49,7 @@ pub trait Record {
 }
 
 impl Record for Simulation<Planar> {
-    fn record(&mut self, every: u32) -> Result<(), StepError> {
+    fn record_sampled(&mut self, sampling: Sampling) -> Result<(), StepError> {
         self.prepare()?;
         let settings = self.settings();
         let recording = Recording {
@@ -48,7 +59,7 @@ impl Record for Simulation<Planar> {
             ..Recording::default()
         };
         let first = self.world().get_resource::<Recorder>().is_none();
-        let mut recorder = Recorder::new(recording, every.max(1), self.world_mut());
+        let mut recorder = Recorder::new(recording, sampling, self.world_mut());
         recorder.audit(self.world());
         recorder.sample(self.world());
         self.world_mut().insert_resource(recorder);
@@ -75,10 +86,11 @@ impl Record for Simulation<Planar> {
 fn after_step(world: &mut World) {
     with_recorder(world, |recorder, world| {
         recorder.follow_structure(world);
+        recorder.follow_springs(world);
         recorder.audit(world);
         recorder.touches(world);
         recorder.drop_provisional();
-        if world.resource::<Clock>().step.is_multiple_of(u64::from(recorder.every)) {
+        if recorder.sampling.takes(world.resource::<Clock>().step) {
             recorder.sample(world);
         }
     });
@@ -108,7 +120,7 @@ enum State {
 #[derive(Resource)]
 struct Recorder {
     recording: Recording,
-    every: u32,
+    sampling: Sampling,
     state: State,
     /// Index in the recording of each body id.
     known: HashMap<u64, usize>,
@@ -117,6 +129,7 @@ struct Recorder {
     table_tick: Option<Tick>,
     /// Whether the last sample is only there because someone looked.
     provisional: bool,
+    springs: SpringLog,
     cursor: MessageCursor<TouchMessage>,
     queries: Queries,
 }
@@ -131,10 +144,11 @@ type BodyComponents = (
     &'static BodyInertia<f64>,
     Option<&'static GravityScale>,
 );
+type SpringComponents = (Entity, &'static Spring<DVec2>);
 type PairComponents = (&'static ContactPair, &'static ContactManifold<Planar>, &'static ContactMemory<Planar>);
 
 /// Queries over the world, built once.
-struct Queries(Option<(QueryState<BodyComponents>, QueryState<PairComponents>, QueryState<&'static Spring<DVec2>>)>);
+struct Queries(Option<(QueryState<BodyComponents>, QueryState<PairComponents>, QueryState<SpringComponents>)>);
 
 impl Queries {
     fn update(&mut self, world: &mut World) {
@@ -144,17 +158,18 @@ impl Queries {
         queries.2.update_archetypes(world);
     }
 
-    fn get(&self) -> (&QueryState<BodyComponents>, &QueryState<PairComponents>, &QueryState<&'static Spring<DVec2>>) {
+    fn get(&self) -> (&QueryState<BodyComponents>, &QueryState<PairComponents>, &QueryState<SpringComponents>) {
         let (bodies, pairs, springs) = self.0.as_ref().expect("queries are built before they are used");
         (bodies, pairs, springs)
     }
 }
 
 impl Recorder {
-    fn new(recording: Recording, every: u32, world: &mut World) -> Self {
-        let mut recorder = Self { recording, every, state: State::Recording, ..Self::lent() };
+    fn new(recording: Recording, sampling: Sampling, world: &mut World) -> Self {
+        let mut recorder = Self { recording, sampling, state: State::Recording, ..Self::lent() };
         recorder.queries.update(world);
         recorder.follow_structure(world);
+        recorder.follow_springs(world);
         recorder
     }
 
@@ -162,12 +177,13 @@ impl Recorder {
     fn lent() -> Self {
         Self {
             recording: Recording::default(),
-            every: 1,
+            sampling: Sampling::every(1),
             state: State::Ended,
             known: HashMap::new(),
             of_rank: Vec::new(),
             table_tick: None,
             provisional: false,
+            springs: SpringLog::default(),
             cursor: MessageCursor::default(),
             queries: Queries(None),
         }
@@ -214,6 +230,15 @@ impl Recorder {
         }
     }
 
+    /// Takes up springs that are new since the last step, and lets go of those that are gone.
+    fn follow_springs(&mut self, world: &World) {
+        let (_, _, springs) = self.queries.get();
+        let body_of =
+            |entity| world.get::<BodyIndex>(entity).and_then(|index| self.of_rank.get(index.0 as usize)).copied();
+        let time = world.resource::<Clock>().time();
+        self.springs.follow(springs.iter_manual(world), body_of, time, &mut self.recording.springs);
+    }
+
     fn audit(&mut self, world: &World) {
         let (bodies, pairs, springs) = self.queries.get();
         let settings = world.resource::<Settings<Planar>>();
@@ -236,7 +261,7 @@ impl Recorder {
             row.momentum += sums.momentum;
             row.angular_momentum += sums.angular_momentum;
         }
-        for spring in springs.iter_manual(world) {
+        for (_, spring) in springs.iter_manual(world) {
             if let (Some(a), Some(b)) = (anchor_point(&spring.a, world), anchor_point(&spring.b, world)) {
                 row.potential += spring_potential(spring.stiffness, spring.rest_length, a, b);
             }
@@ -292,6 +317,8 @@ impl Recorder {
         touching.sort_by_key(|(pair, ..)| pair.key);
         let mut contacts = Vec::new();
         for (pair, manifold, memory) in touching {
+            let normal = manifold.0.normal;
+            let tangent = dvec2(normal.y, -normal.x);
             for (point, memory) in manifold.0.points().iter().zip(&memory.0) {
                 if point.separation > tolerance && memory.given == DVec2::ZERO {
                     continue;
@@ -300,10 +327,10 @@ impl Recorder {
                     a: self.of_rank[pair.bodies[0] as usize],
                     b: self.of_rank[pair.bodies[1] as usize],
                     point: point.point,
-                    normal: manifold.0.normal,
+                    normal,
                     separation: point.separation,
-                    normal_impulse: memory.given.x,
-                    tangent_impulse: memory.given.y,
+                    normal_impulse: memory.given.dot(normal),
+                    tangent_impulse: memory.given.dot(tangent),
                     kind: Cow::Borrowed(point.kind.as_str()),
                 });
             }

@@ -8,6 +8,7 @@ use tumble_math::{Planar, Pose};
 use tumble_shape::{MassDim, MassProperties, PlanarShape};
 
 use crate::body::InDim;
+use crate::engine::Engine;
 use crate::part::Amount;
 
 /// A shape and where its body is.
@@ -69,6 +70,9 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
 
     /// The normal of a manifold, from a to b.
     fn normal(manifold: &Self::Manifold) -> Self::Vector;
+
+    /// What makes and runs a simulation of this dimension: see [`Engine`].
+    fn engine() -> &'static Engine<Self>;
 }
 
 impl Geometry for Planar {
@@ -117,5 +121,10 @@ impl Geometry for Planar {
 
     fn normal(manifold: &PlanarManifold) -> DVec2 {
         manifold.normal
+    }
+
+    fn engine() -> &'static Engine<Self> {
+        static PLANAR: Engine<Planar> = Engine::new();
+        &PLANAR
     }
 }

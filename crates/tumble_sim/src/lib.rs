@@ -5,6 +5,7 @@
 pub mod body;
 pub mod clock;
 pub mod contact;
+mod engine;
 pub mod error;
 pub mod fault;
 pub mod force;
@@ -28,6 +29,7 @@ pub use contact::{
     ContactManifold, ContactMemory, ContactPair, ContactReport, IgnoredPairs, Materials, PairKey, PointMemory, Touch,
     TouchPhase,
 };
+pub use engine::Engine;
 pub use error::{BodyError, StepError, UnknownBody};
 pub use force::{Anchor, AppliedForce, Axes, Course, GravityScale, LinearDrag, QuadraticDrag, Spring};
 pub use geometry::Geometry;

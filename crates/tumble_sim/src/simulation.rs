@@ -21,10 +21,10 @@ use crate::contact::{
 use crate::error::{StepError, UnknownBody};
 use crate::fault::Fault;
 use crate::geometry::Geometry;
-use crate::needs::{Need, needs};
+use crate::needs::Need;
 use crate::notice::Notices;
 use crate::part::{Part, PartOf, Response};
-use crate::schedule::{ForceSystems, UserForce, add_systems, begin_schedule, look_schedule, step_schedule};
+use crate::schedule::{ForceSystems, UserForce, begin_schedule};
 use crate::settings::{Integrator, Settings};
 use crate::structure::Structure;
 
@@ -68,31 +68,16 @@ impl Simulation<Planar> {
 impl<D: Geometry> Simulation<D> {
     /// An empty simulation.
     pub fn with_settings(settings: Settings<D>) -> Self {
-        let mut world = World::new();
-        world.insert_resource(Clock { step: 0, dt: settings.dt });
-        world.insert_resource(settings);
-        world.init_resource::<Structure>();
-        world.init_resource::<Beginning>();
-        world.init_resource::<BodyTable>();
-        world.init_resource::<Colliders<D>>();
-        world.init_resource::<Detection<D>>();
-        world.init_resource::<ContactProblem<D>>();
-        world.init_resource::<PositionCorrections<D>>();
-        world.init_resource::<PreviousEnds<D>>();
-        world.init_resource::<ContactReport>();
-        world.init_resource::<IgnoredPairs>();
-        world.init_resource::<Materials>();
-        world.init_resource::<Messages<Touch>>();
-        world.init_resource::<Notices>();
-        world.init_resource::<Fault>();
+        let engine = D::engine();
+        let mut world = (engine.world)(settings);
         let (memories, edited) = (world.query(), world.query_filtered());
         Self {
             world,
             memories,
             edited,
-            step: step_schedule::<D>(),
+            step: (engine.step_schedule)(),
             begin: begin_schedule(),
-            look: look_schedule::<D>(),
+            look: (engine.look_schedule)(),
             after_step: Vec::new(),
             known: BTreeSet::new(),
             user_forces: 0,
@@ -151,9 +136,10 @@ impl<D: Geometry> Simulation<D> {
     ///
     /// When a body cannot be simulated, or the state of one is not finite any more; the step is then not counted.
     pub fn step(&mut self) -> Result<(), StepError> {
+        let rebuilt = *self.world.resource::<Structure>() == Structure::Changed;
         self.prepare()?;
         self.forget_last_step();
-        if self.was_edited() {
+        if rebuilt || self.was_edited() {
             self.world.insert_resource(Beginning::Yes);
             self.begin.run(&mut self.world);
             self.world.insert_resource(Beginning::No);
@@ -201,14 +187,13 @@ impl<D: Geometry> Simulation<D> {
         if !(dt > 0.0 && dt.is_finite()) {
             return Err(StepError::TimeStep(dt));
         }
-        prepare_bodies::<D>(&mut self.world)?;
-        prepare_colliders::<D>(&mut self.world);
-        renumber_pairs::<D>(&mut self.world);
-        self.world.resource_mut::<PreviousEnds<D>>().forget();
-        for need in needs::<D>(&mut self.world).difference(&self.known) {
-            add_systems::<D>(*need, &mut self.step, &mut self.begin);
+        let engine = D::engine();
+        (engine.rebuild)(&mut self.world)?;
+        let mut needs = (engine.needs)(&mut self.world);
+        for need in needs.difference(&self.known) {
+            (engine.add_systems)(*need, &mut self.step, &mut self.begin);
         }
-        self.known.append(&mut needs::<D>(&mut self.world));
+        self.known.append(&mut needs);
         self.world.insert_resource(Structure::Known);
         Ok(())
     }
@@ -323,10 +308,7 @@ impl<D: Geometry> Simulation<D> {
 
     /// Whether the state of a body was changed from outside since the last step.
     fn was_edited(&mut self) -> bool {
-        if !self.known.contains(&Need::Detection) {
-            return false;
-        }
-        self.edited.iter(&self.world).next().is_some()
+        self.known.contains(&Need::Detection) && self.edited.iter(&self.world).next().is_some()
     }
 
     fn check_fault(&self) -> Result<(), StepError> {
@@ -338,6 +320,37 @@ impl<D: Geometry> Simulation<D> {
             step: self.clock().step + 1,
         })
     }
+}
+
+/// A world with the resources of a simulation.
+pub(crate) fn new_world<D: Geometry>(settings: Settings<D>) -> World {
+    let mut world = World::new();
+    world.insert_resource(Clock { step: 0, dt: settings.dt });
+    world.insert_resource(settings);
+    world.init_resource::<Structure>();
+    world.init_resource::<Beginning>();
+    world.init_resource::<BodyTable>();
+    world.init_resource::<Colliders<D>>();
+    world.init_resource::<Detection<D>>();
+    world.init_resource::<ContactProblem<D>>();
+    world.init_resource::<PositionCorrections<D>>();
+    world.init_resource::<PreviousEnds<D>>();
+    world.init_resource::<ContactReport>();
+    world.init_resource::<IgnoredPairs>();
+    world.init_resource::<Materials>();
+    world.init_resource::<Messages<Touch>>();
+    world.init_resource::<Notices>();
+    world.init_resource::<Fault>();
+    world
+}
+
+/// Rebuilds the tables of bodies and parts.
+pub(crate) fn rebuild<D: Geometry>(world: &mut World) -> Result<(), StepError> {
+    prepare_bodies::<D>(world)?;
+    prepare_colliders::<D>(world);
+    renumber_pairs::<D>(world);
+    world.resource_mut::<PreviousEnds<D>>().forget();
+    Ok(())
 }
 
 type Edited<D> = Or<(

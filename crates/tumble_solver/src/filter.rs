@@ -140,8 +140,9 @@ fn solve_point<D: Dim>(bodies: &mut [SolverBody<D>], row: &mut ContactRow<D>, pr
     };
     let bound = friction * normal;
     let tried = tangential(row.impulse - velocity.scale_by(*inverse_diagonal));
-    let size = tried.length();
-    let mut solved = if size > bound { tried * (bound / size) } else { tried };
+    // Most points stick, and need no square root to know it.
+    let squared = tried.dot(tried);
+    let mut solved = if squared > bound * bound { tried * (bound / squared.sqrt()) } else { tried };
     solved[0] = normal;
     let change = solved - row.impulse;
     if change == D::Vector::ZERO {

@@ -14,7 +14,7 @@
 //! approach speed intact, and the impact that follows answers that speed. This is also what keeps thin rods from passing through each
 //! other: contacts are made before surfaces meet (the speculative margin), for any gap that could close within the step.
 
-use tumble_math::{Dim, Linear};
+use tumble_math::{Dim, Inertia, Linear};
 
 use crate::{ContactRow, SolverBody};
 
@@ -31,25 +31,42 @@ pub struct PositionSettings {
     pub recovery: f64,
 }
 
-/// Gaps up to this many times the largest displacement that is asked for take part from the start [1].
-const REACH: f64 = 4.0;
+/// Sweeps after which points are looked for that have come in the way of those that take part [1].
+const SWEEPS_BETWEEN_LOOKS: u32 = 4;
 
 /// Displacements to be added to this step's motion: one per body, as velocities of a step of one second.
 #[derive(Clone, Debug)]
 pub struct Displacements<D: Dim> {
     /// One record per body; `velocity` holds the displacement [m] and `angular_velocity` the turn [rad].
     pub bodies: Vec<SolverBody<D>>,
+    /// What J Δx has to reach at least, for each row [m].
     targets: Vec<f64>,
+    /// λ of each row [kg·m].
     sums: Vec<f64>,
-    /// Rows that displacements may reach, in order.
-    active: Vec<u32>,
-    /// K_nn of each row, 0 while it has not been asked for.
-    compliances: Vec<f64>,
+    /// The rows that take part, in order.
+    pushes: Vec<Push<D>>,
+    /// Whether a row takes part.
+    takes_part: Vec<bool>,
+}
+
+/// What a sweep needs of a row, and no more: in the plane one cache line.
+#[derive(Clone, Copy, Debug)]
+struct Push<D: Dim> {
+    row: u32,
+    a: u32,
+    b: u32,
+    normal: D::Vector,
+    /// r × n: turn of each body that opens the gap.
+    turns: [D::Angular; 2],
+    target: f64,
+    sum: f64,
+    /// n · K n [1/kg].
+    compliance: f64,
 }
 
 impl<D: Dim> Default for Displacements<D> {
     fn default() -> Self {
-        Self { bodies: Vec::new(), targets: Vec::new(), sums: Vec::new(), active: Vec::new(), compliances: Vec::new() }
+        Self { bodies: Vec::new(), targets: Vec::new(), sums: Vec::new(), pushes: Vec::new(), takes_part: Vec::new() }
     }
 }
 
@@ -67,13 +84,11 @@ impl<D: Dim> Displacements<D> {
         self.bodies.clear();
         self.sums.clear();
         self.targets.clear();
-        // What J Δx has to reach at least, for each point.
         self.targets.extend(
             rows.iter()
                 .map(|row| allowed(row.separation, settings) - row.separation - dt * row.separating_speed(bodies)),
         );
-        let worst = self.targets.iter().copied().fold(0.0, f64::max);
-        if worst == 0.0 {
+        if self.targets.iter().all(|target| *target <= 0.0) {
             return false;
         }
 
@@ -83,71 +98,85 @@ impl<D: Dim> Displacements<D> {
             body.angular_velocity = D::Angular::ZERO;
         }
         self.sums.resize(rows.len(), 0.0);
-        self.compliances.clear();
-        self.compliances.resize(rows.len(), 0.0);
-        // Most gaps are wider than any displacement: they are left out until one of them turns out to be in the way.
-        let reach = REACH * worst;
-        self.active.clear();
-        self.active.extend((0..rows.len() as u32).filter(|i| self.targets[*i as usize] > -reach));
+        self.takes_part.clear();
+        self.takes_part.resize(rows.len(), false);
+        self.pushes.clear();
         let mut sweeps_left = settings.iterations;
-        self.sweep(rows, &mut sweeps_left, settings.tolerance);
-        if self.active.len() < rows.len() && self.any_in_the_way(rows) {
-            self.active.clear();
-            self.active.extend(0..rows.len() as u32);
-            self.sweep(rows, &mut sweeps_left, settings.tolerance);
+        // Most points are nowhere near being displaced: only those take part that go too far, once they do.
+        while self.admit(rows) | self.sweep(&mut sweeps_left, settings.tolerance) && sweeps_left > 0 {}
+        for push in &self.pushes {
+            self.sums[push.row as usize] = push.sum;
         }
         true
     }
 
-    /// Sweeps over the active rows until they are still.
-    fn sweep(&mut self, rows: &[ContactRow<D>], sweeps_left: &mut u32, tolerance: f64) {
-        let active = std::mem::take(&mut self.active);
-        while *sweeps_left > 0 {
-            *sweeps_left -= 1;
-            let mut moved: f64 = 0.0;
-            for k in 0..active.len() {
-                let k = if *sweeps_left % 2 == 1 { active.len() - 1 - k } else { k };
-                let i = active[k] as usize;
-                moved = moved.max(self.push_apart(&rows[i], i));
-            }
-            if moved <= tolerance {
-                break;
+    /// Lets rows take part that go too far as things are; returns whether there were any.
+    fn admit(&mut self, rows: &[ContactRow<D>]) -> bool {
+        let known = self.pushes.len();
+        for (i, row) in rows.iter().enumerate() {
+            if !self.takes_part[i] && self.targets[i] > row.separating_speed(&self.bodies) {
+                let compliance = row.normal_compliance(&self.bodies);
+                // A gap between two bodies that cannot move stays as it is.
+                if compliance > 0.0 {
+                    self.takes_part[i] = true;
+                    self.pushes.push(Push::of(i as u32, row, self.targets[i], compliance));
+                }
             }
         }
-        self.active = active;
+        self.pushes.sort_unstable_by_key(|push| push.row);
+        self.pushes.len() > known
     }
 
-    /// Whether some row goes too far as things are.
-    fn any_in_the_way(&self, rows: &[ContactRow<D>]) -> bool {
-        rows.iter().zip(&self.targets).any(|(row, target)| *target > row.separating_speed(&self.bodies))
+    /// Sweeps a few times over the rows that take part; returns whether they still move.
+    fn sweep(&mut self, sweeps_left: &mut u32, tolerance: f64) -> bool {
+        for _ in 0..SWEEPS_BETWEEN_LOOKS.min(*sweeps_left) {
+            *sweeps_left -= 1;
+            let backwards = *sweeps_left % 2 == 1;
+            let mut moved: f64 = 0.0;
+            for k in 0..self.pushes.len() {
+                let k = if backwards { self.pushes.len() - 1 - k } else { k };
+                moved = moved.max(self.pushes[k].apart(&mut self.bodies));
+            }
+            if moved <= tolerance {
+                return false;
+            }
+        }
+        true
     }
 
     /// Whether point i was held in the last call of [`find`](Self::find): without its push it would have gone too far.
     pub fn holds(&self, i: usize) -> bool {
         self.sums.get(i).is_some_and(|sum| *sum > 0.0)
     }
+}
+
+impl<D: Dim> Push<D> {
+    fn of(index: u32, row: &ContactRow<D>, target: f64, compliance: f64) -> Self {
+        let normal = row.normal();
+        let turns = [D::torque(row.arm_a, normal), D::torque(row.arm_b, normal)];
+        Self { row: index, a: row.a, b: row.b, normal, turns, target, sum: 0.0, compliance }
+    }
 
     /// Solves one point with all others as they are; returns how far it moved [m].
     #[inline]
-    fn push_apart(&mut self, row: &ContactRow<D>, i: usize) -> f64 {
-        let missing = self.targets[i] - row.separating_speed(&self.bodies);
-        if missing <= 0.0 && self.sums[i] == 0.0 {
+    fn apart(&mut self, bodies: &mut [SolverBody<D>]) -> f64 {
+        let (a, b) = (&bodies[self.a as usize], &bodies[self.b as usize]);
+        let shifted = self.normal.dot(b.velocity - a.velocity);
+        let turned = self.turns[1].dot(b.angular_velocity) - self.turns[0].dot(a.angular_velocity);
+        let sum = (self.sum + (self.target - shifted - turned) / self.compliance).max(0.0);
+        let change = sum - self.sum;
+        if change == 0.0 {
             return 0.0;
         }
-        if self.compliances[i] == 0.0 {
-            self.compliances[i] = row.normal_compliance(&self.bodies);
-        }
-        let compliance = self.compliances[i];
-        if compliance <= 0.0 {
-            return 0.0;
-        }
-        let sum = (self.sums[i] + missing / compliance).max(0.0);
-        let change = sum - self.sums[i];
-        self.sums[i] = sum;
-        let push = row.normal() * change;
-        self.bodies[row.b as usize].apply_impulse(row.arm_b, push);
-        self.bodies[row.a as usize].apply_impulse(row.arm_a, -push);
-        change.abs() * compliance
+        self.sum = sum;
+        let push = self.normal * change;
+        let b = &mut bodies[self.b as usize];
+        b.velocity += push.scale_by(b.inverse_mass);
+        b.angular_velocity += b.inverse_inertia.apply(self.turns[1] * change);
+        let a = &mut bodies[self.a as usize];
+        a.velocity -= push.scale_by(a.inverse_mass);
+        a.angular_velocity -= a.inverse_inertia.apply(self.turns[0] * change);
+        change.abs() * self.compliance
     }
 }
 

@@ -3,8 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use bevy_ecs::prelude::*;
-use tumble_collision::{BroadPhase, PairChanges};
-use tumble_math::{Dim, Linear, Pose};
+use tumble_collision::{BroadPhase, PairChanges, Volume};
+use tumble_math::{Bounds, Dim, Linear, Pose};
 
 use super::colliders::may_touch;
 use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, IgnoredPairs, Materials, PairKey};
@@ -54,7 +54,14 @@ pub struct Detection<D: Geometry> {
     broad: BroadPhase<D::Vector>,
     changes: PairChanges,
     motions: Vec<BodyMotion<D>>,
+    /// Where each part may be until the end of the next step.
+    volumes: Vec<Volume<D::Vector>>,
     pairs: HashMap<PairKey, Entity>,
+    /// Solid pairs that have contact points, in the order of their parts.
+    solid: Vec<([u32; 2], Entity)>,
+    /// Scratch space of the sorting of pairs.
+    unsorted: Vec<([u32; 2], Entity)>,
+    starts: Vec<u32>,
     ranks: Ranks,
     touches: Vec<Touch>,
 }
@@ -76,7 +83,11 @@ impl<D: Geometry> Default for Detection<D> {
             broad: BroadPhase::new(),
             changes: PairChanges::default(),
             motions: Vec::new(),
+            volumes: Vec::new(),
             pairs: HashMap::new(),
+            solid: Vec::new(),
+            unsorted: Vec::new(),
+            starts: Vec::new(),
             ranks: Ranks::Forgotten,
             touches: Vec::new(),
         }
@@ -89,9 +100,37 @@ impl<D: Geometry> Detection<D> {
         &self.motions
     }
 
+    /// Entities of the solid pairs that have contact points, in the order of their parts.
+    pub(super) fn solid_pairs(&self) -> impl Iterator<Item = Entity> {
+        self.solid.iter().map(|(_, entity)| *entity)
+    }
+
     /// Number of pairs whose grown bounds overlap.
     pub fn pair_count(&self) -> usize {
         self.pairs.len()
+    }
+
+    /// Sorts the solid pairs by their parts: by counting for the first, which is much quicker than comparing, then each few by the second.
+    fn sort_solid_pairs(&mut self, parts: usize) {
+        std::mem::swap(&mut self.solid, &mut self.unsorted);
+        self.starts.clear();
+        self.starts.resize(parts + 1, 0);
+        for ([first, _], _) in &self.unsorted {
+            self.starts[*first as usize + 1] += 1;
+        }
+        for part in 0..parts {
+            self.starts[part + 1] += self.starts[part];
+        }
+        self.solid.clear();
+        self.solid.extend_from_slice(&self.unsorted);
+        for pair in &self.unsorted {
+            let place = &mut self.starts[pair.0[0] as usize];
+            self.solid[*place as usize] = *pair;
+            *place += 1;
+        }
+        for few in self.solid.chunk_by_mut(|one, other| one.0[0] == other.0[0]) {
+            few.sort_unstable_by_key(|(parts, _)| parts[1]);
+        }
     }
 
     /// Forgets all ranks: bodies or parts were added or removed.
@@ -142,36 +181,36 @@ pub fn find_pairs<D: Geometry>(
         return;
     }
     detection.motions.resize_with(table.entries().len(), BodyMotion::default);
+    detection.volumes.resize(colliders.as_slice().len(), Volume::Box(Bounds::empty()));
     let fat_margin = FAT_MARGIN * settings.length_scale;
     let limit = settings.speculative_limit();
     for (index, position, orientation, velocity, spin, acceleration, angular_acceleration) in &bodies {
         let motion = &mut detection.motions[index.0 as usize];
         let pose = Pose { position: position.0, rotation: orientation.0 };
         let parts = colliders.range(index.0);
-        let unmoved = detection.ranks == Ranks::Known
-            && motion.pose == pose
-            && velocity.0 == D::Vector::ZERO
-            && spin.0 == D::Angular::ZERO;
         let extent = colliders.as_slice()[parts.clone()].iter().map(|part| part.extent).fold(0.0, f64::max);
         let speed = velocity.0.length() + spin.0.length() * extent;
         let travel = (speed + acceleration.0.length() * clock.dt) * clock.dt;
         if travel > limit {
             notices.moved_too_far(index.0, travel, clock.step);
         }
+        let reach = travel.min(limit) + 0.5 * REST_MARGIN * settings.length_scale;
+        let unmoved = detection.ranks == Ranks::Known && motion.pose == pose && reach <= motion.reach;
         *motion = BodyMotion {
             pose,
             velocity: velocity.0,
             angular_velocity: spin.0,
             acceleration: acceleration.0,
             angular_acceleration: angular_acceleration.0,
-            reach: travel.min(limit) + 0.5 * REST_MARGIN * settings.length_scale,
+            reach: if unmoved { motion.reach } else { reach },
         };
         if unmoved {
             continue;
         }
         for part in parts {
-            let volume = D::volume(&colliders.as_slice()[part].shape, &pose).grown(motion.reach);
-            detection.broad.update(part as u32, volume, fat_margin + motion.reach);
+            let volume = D::volume(&colliders.as_slice()[part].shape, &pose).grown(reach);
+            detection.volumes[part] = volume;
+            detection.broad.update(part as u32, volume, fat_margin + reach);
         }
     }
     detection.ranks = if detection.ranks == Ranks::Forgotten { Ranks::Renewed } else { Ranks::Known };
@@ -301,7 +340,7 @@ pub fn find_contacts<D: Geometry>(
     settings: Res<Settings<D>>,
     colliders: Res<Colliders<D>>,
     mut detection: ResMut<Detection<D>>,
-    mut pairs: Query<(&mut ContactPair, &mut ContactManifold<D>, &mut ContactMemory<D>)>,
+    mut pairs: Query<(Entity, &mut ContactPair, &mut ContactManifold<D>, &mut ContactMemory<D>)>,
     mut messages: ResMut<Messages<Touch>>,
     fault: Res<Fault>,
 ) {
@@ -311,8 +350,17 @@ pub fn find_contacts<D: Geometry>(
     let detection = &mut *detection;
     let touch_tolerance = settings.touch_tolerance();
     let keep_tolerance = touch_tolerance.max(KEEP_TOLERANCE * settings.slop());
-    for (mut pair, mut manifold, mut memory) in &mut pairs {
+    detection.solid.clear();
+    for (entity, mut pair, mut manifold, mut memory) in &mut pairs {
         let pair = pair.bypass_change_detection();
+        // Fat bounds overlap long before the parts can meet.
+        let [volume_a, volume_b] = pair.colliders.map(|collider| &detection.volumes[collider as usize]);
+        if !volume_a.overlaps(volume_b) && !pair.touching {
+            if !D::points(&manifold.0).is_empty() {
+                manifold.bypass_change_detection().0 = D::Manifold::default();
+            }
+            continue;
+        }
         let [a, b] = pair.bodies.map(|body| &detection.motions[body as usize]);
         let [shape_a, shape_b] = pair.colliders.map(|collider| &colliders.as_slice()[collider as usize].shape);
         let query = ContactQuery {
@@ -335,8 +383,13 @@ pub fn find_contacts<D: Geometry>(
             detection.touches.push(Touch { phase, pair: pair.key, response: pair.response });
             pair.touching = touching;
         }
+        if pair.response == Response::Solid && !D::points(&found).is_empty() {
+            detection.solid.push((pair.colliders, entity));
+        }
         manifold.bypass_change_detection().0 = found;
     }
+    // Pairs come in the order of their birth; anything computed from them goes by the order of their parts.
+    detection.sort_solid_pairs(colliders.as_slice().len());
     if !detection.touches.is_empty() {
         detection.touches.sort_by_key(|touch| (touch.pair, touch.phase));
         messages.write_batch(detection.touches.drain(..));

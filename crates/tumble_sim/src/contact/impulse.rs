@@ -1,14 +1,14 @@
 //! The impulse model's three systems: velocity filter, position filter, one-by-one impulses.
 
 use bevy_ecs::prelude::*;
-use tumble_math::{Dim, Linear};
+use tumble_math::{Dim, Linear, Matrix};
 use tumble_solver::filter::{FilterSettings, filter_velocities as filter_slices};
 use tumble_solver::impact::{Approach, ImpactSettings, resolve_one_by_one};
 use tumble_solver::position::{Displacements, PositionSettings};
 use tumble_solver::{ContactRow, Slip};
 
-use super::problem::{BodyQuery, ContactProblem, ContactReport, PairQuery, Points};
-use super::{Detection, PointMemory};
+use super::problem::{BodyQuery, ContactProblem, ContactReport, PairQuery, Points, RowSource};
+use super::Detection;
 use crate::fault::Fault;
 use crate::geometry::Geometry;
 use crate::schedule::StepSystems;
@@ -44,7 +44,7 @@ pub fn filter_velocities<D: Geometry>(
     mut bodies: BodyQuery<D>,
 ) {
     let problem = &mut *problem;
-    problem.gather_rows(&detection, &pairs, Points::Near, settings.touch_tolerance());
+    // The rows are those that `resolve_impulses` gathered when they were found.
     if problem.rows.is_empty() {
         return;
     }
@@ -65,7 +65,7 @@ pub fn filter_velocities<D: Geometry>(
         if let Ok((.., mut memory)) = pairs.get_mut(source.entity) {
             let memory = &mut memory.bypass_change_detection().0.as_mut()[source.point as usize];
             (memory.impulse, memory.slip) = (row.impulse, row.slip);
-            memory.given += row.impulse;
+            memory.given += row.frame.apply(row.impulse);
         }
     }
 }
@@ -121,17 +121,18 @@ pub fn resolve_impulses<D: Geometry>(
         return;
     }
     let problem = &mut *problem;
-    problem.gather_rows(&detection, &pairs, Points::Touching, settings.touch_tolerance());
-    if problem.rows.is_empty() {
+    problem.gather_rows(&detection, &pairs, Points::Near, settings.touch_tolerance());
+    if problem.touching == 0 {
         return;
     }
     problem.gather_bodies(&bodies, detection.motions().len());
+    let (rows, sources) = (&mut problem.rows[..problem.touching], &problem.sources[..problem.touching]);
     let impact = ImpactSettings {
         colliding_above: settings.colliding_above(),
-        impulses_per_contact: settings.impulses_per_contact(problem.rows.len()),
+        impulses_per_contact: settings.impulses_per_contact(rows.len()),
     };
     let colliding = |row: &ContactRow<D>| -row.separating_speed(&problem.bodies) > impact.colliding_above;
-    if !problem.rows.iter().any(colliding) {
+    if !rows.iter().any(colliding) {
         return;
     }
 
@@ -143,32 +144,31 @@ pub fn resolve_impulses<D: Geometry>(
     };
     let reading =
         Reading { dt: clock.dt, integrator: settings.integrator, touch_tolerance: settings.touch_tolerance() };
-    let mut approaches: Vec<Approach> = problem
-        .rows
+    let mut approaches: Vec<Approach> = rows
         .iter()
-        .zip(&problem.sources)
-        .map(|(row, source)| match (*beginning, pairs.get(source.entity)) {
-            (Beginning::No, Ok((.., memory))) => {
-                let memory = &memory.0.as_ref()[source.point as usize];
-                let approach = reading.approach(row, -row.separating_speed(&problem.bodies), memory, &detection);
+        .zip(sources)
+        .map(|(row, source)| match *beginning {
+            Beginning::No => {
+                let approach = reading.approach(row, -row.separating_speed(&problem.bodies), source, &detection);
                 Approach { threshold: threshold(row), ..approach }
             }
-            _ => Approach::default(),
+            Beginning::Yes => Approach::default(),
         })
         .collect();
-    let solved = resolve_one_by_one(&mut problem.bodies, &problem.rows, &mut approaches, &mut problem.given, &impact);
+    let solved = resolve_one_by_one(&mut problem.bodies, rows, &mut approaches, &mut problem.given, &impact);
     report.add(solved);
-    problem.scatter_bodies(&mut bodies, &mut fault, StepSystems::ResolveImpulses);
-
-    for ((row, source), given) in problem.rows.iter().zip(&problem.sources).zip(&problem.given) {
+    let slip_tolerance = settings.impulse.tolerance * settings.length_scale;
+    for ((row, source), given) in rows.iter_mut().zip(sources).zip(&problem.given) {
         if *given != D::Vector::ZERO
             && let Ok((.., mut memory)) = pairs.get_mut(source.entity)
         {
             let memory = &mut memory.bypass_change_detection().0.as_mut()[source.point as usize];
-            memory.given += *given;
-            memory.slip = slip_after(row, &problem.bodies, settings.impulse.tolerance * settings.length_scale);
+            memory.given += row.frame.apply(*given);
+            row.slip = slip_after(row, &problem.bodies, slip_tolerance);
+            memory.slip = row.slip;
         }
     }
+    problem.scatter_bodies(&mut bodies, &mut fault, StepSystems::ResolveImpulses);
 }
 
 /// Whether a point slides after its impact.
@@ -201,13 +201,12 @@ impl Reading {
         &self,
         row: &ContactRow<D>,
         approach: f64,
-        memory: &PointMemory<D::Vector>,
+        source: &RowSource,
         detection: &Detection<D>,
     ) -> Approach {
-        let touched_before = memory.separation_before.is_some_and(|separation| separation <= self.touch_tolerance);
+        let touched_before = source.separation_before.is_some_and(|separation| separation <= self.touch_tolerance);
         // A point with a gap that the velocity filter held back in this step rests too: its velocity has lost what forces added.
-        let held_back = memory.given[0] > 0.0;
-        if touched_before || held_back {
+        if touched_before || source.held_back {
             let ignored = approach.max(0.0);
             return Approach { correction: -ignored, ignored, ..Approach::default() };
         }
@@ -217,7 +216,7 @@ impl Reading {
             Integrator::Ballistic => (gained, 0.0),
         };
         let before = -approach - ahead;
-        let at_surface = match memory.separation_before {
+        let at_surface = match source.separation_before {
             Some(gap) => (before * before - 2.0 * gained / self.dt * gap).max(0.0).sqrt(),
             // Nothing is known of the way here: it took the whole step.
             None => (-approach + gained - ahead).abs(),

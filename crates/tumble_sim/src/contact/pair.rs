@@ -56,7 +56,7 @@ pub struct PointMemory<V> {
     pub impulse: V,
     /// Whether the point slides.
     pub slip: Slip,
-    /// Sum of the impulses of this step, in the contact frame [N·s].
+    /// Sum of the impulses of this step, on b in world axes [N·s].
     pub given: V,
     /// Separation found by the detection before; `None` for a new point [m].
     pub separation_before: Option<f64>,

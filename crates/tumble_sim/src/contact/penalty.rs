@@ -37,7 +37,7 @@ pub fn apply_penalty_forces<D: Geometry>(
         let Ok((_, pair, _, mut memory)) = pairs.get_mut(source.entity) else { continue };
         let contact = spring_damper(&law, pair, row, &problem.bodies, &colliders, clock.dt, &mut notices);
         let force = penalty::contact_force(row, &problem.bodies, &contact, clock.dt);
-        memory.bypass_change_detection().0.as_mut()[source.point as usize].given += force * clock.dt;
+        memory.bypass_change_detection().0.as_mut()[source.point as usize].given += row.frame.apply(force) * clock.dt;
         push(row, force, &table, &mut forces);
     }
 }
@@ -128,7 +128,7 @@ pub fn apply_lecture_floor<D: Geometry>(
         let side = if body == row.b { 1.0 } else { -1.0 };
         let in_frame = row.frame.apply_transposed(velocity * side);
         let force = penalty::lecture_force(row.separation, in_frame, &floor);
-        memory.bypass_change_detection().0.as_mut()[source.point as usize].given += force * clock.dt;
+        memory.bypass_change_detection().0.as_mut()[source.point as usize].given += row.frame.apply(force) * clock.dt;
         push_at::<D>(ends[k] - motion.pose.position, body, row.frame.apply(force) * side, &table, &mut forces);
     }
     previous.0 = ends_now;

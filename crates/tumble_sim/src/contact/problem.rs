@@ -5,14 +5,13 @@ use tumble_math::{Dim, Inertia, Linear};
 use tumble_solver::filter::PreparedRow;
 use tumble_solver::{ContactRow, Ending, Report, SolverBody};
 
-use super::{ContactManifold, ContactMemory, ContactPair, Detection, PairKey};
+use super::{ContactManifold, ContactMemory, ContactPair, Detection};
 use crate::Settings;
 use crate::body::{
     AngularVelocity, BodyIndex, InverseInertia, InverseMass, LinearVelocity, Orientation, PreviousVelocity,
 };
 use crate::fault::{Fault, Quantity};
 use crate::geometry::Geometry;
-use crate::part::Response;
 use crate::schedule::StepSystems;
 
 /// What the contact solvers did in this step.
@@ -40,9 +39,10 @@ pub struct ContactProblem<D: Geometry> {
     pub(super) rows: Vec<ContactRow<D>>,
     /// Where each row comes from.
     pub(super) sources: Vec<RowSource>,
+    /// How many rows, from the first, touch.
+    pub(super) touching: usize,
     /// How many rows, from the first, the velocity filter is to hold.
     pub(super) resting: usize,
-    pairs: Vec<(PairKey, Entity)>,
     near: Vec<(ContactRow<D>, RowSource)>,
     pub(super) prepared: Vec<PreparedRow<D>>,
     pub(super) given: Vec<D::Vector>,
@@ -55,6 +55,10 @@ pub(super) struct RowSource {
     pub point: u8,
     /// What the point's memory says of the position filter.
     pub held: bool,
+    /// Separation found by the detection before; `None` for a new point [m].
+    pub separation_before: Option<f64>,
+    /// Whether the velocity filter held the point back in this step.
+    pub held_back: bool,
 }
 
 impl<D: Geometry> Default for ContactProblem<D> {
@@ -63,8 +67,8 @@ impl<D: Geometry> Default for ContactProblem<D> {
             bodies: Vec::new(),
             rows: Vec::new(),
             sources: Vec::new(),
+            touching: 0,
             resting: 0,
-            pairs: Vec::new(),
             near: Vec::new(),
             prepared: Vec::new(),
             given: Vec::new(),
@@ -109,22 +113,14 @@ impl<D: Geometry> ContactProblem<D> {
         wanted: Points,
         touch_tolerance: f64,
     ) {
-        self.pairs.clear();
         self.rows.clear();
         self.sources.clear();
         self.near.clear();
-        for (entity, pair, manifold, _) in pairs {
-            let wanted = wanted == Points::Near || pair.touching;
-            if wanted && pair.response == Response::Solid && !D::points(&manifold.0).is_empty() {
-                self.pairs.push((pair.key, entity));
-            }
-        }
-        // Pairs come in the order of their birth; anything computed from them goes by key.
-        if !self.pairs.is_sorted() {
-            self.pairs.sort_unstable();
-        }
-        for &(_, entity) in &self.pairs {
+        for entity in detection.solid_pairs() {
             let Ok((_, pair, manifold, memory)) = pairs.get(entity) else { continue };
+            if wanted == Points::Touching && !pair.touching {
+                continue;
+            }
             let frame = D::contact_frame(D::normal(&manifold.0));
             let [a, b] = pair.bodies;
             let [at_a, at_b] = pair.bodies.map(|body| detection.motions()[body as usize].pose.position);
@@ -142,7 +138,13 @@ impl<D: Geometry> ContactProblem<D> {
                     impulse: memory.impulse,
                     slip: memory.slip,
                 };
-                let source = RowSource { entity, point: number as u8, held: memory.held };
+                let source = RowSource {
+                    entity,
+                    point: number as u8,
+                    held: memory.held,
+                    separation_before: memory.separation_before,
+                    held_back: memory.given.dot(row.normal()) > 0.0,
+                };
                 if point.separation <= touch_tolerance || memory.touches {
                     self.rows.push(row);
                     self.sources.push(source);
@@ -151,7 +153,7 @@ impl<D: Geometry> ContactProblem<D> {
                 }
             }
         }
-        self.resting = self.rows.len();
+        self.touching = self.rows.len();
         for (row, source) in self.near.drain(..) {
             self.rows.push(row);
             self.sources.push(source);
@@ -162,6 +164,7 @@ impl<D: Geometry> ContactProblem<D> {
     /// step and a half, across a gap that this speed can close. Without them, a resting point that solver error has
     /// lifted by a hair would fall, and land, and be lifted again.
     pub(super) fn admit_resting(&mut self, settings: &Settings<D>) {
+        self.resting = self.touching;
         for i in self.resting..self.rows.len() {
             let slow = 3.0 * settings.rest_speed(self.rows[i].normal());
             let row = &self.rows[i];

@@ -4,7 +4,7 @@
 use bevy_ecs::entity::Entity;
 use bevy_ecs::name::Name;
 use glam::{DVec2, dvec2};
-use tumble_math::{Matrix, Planar, PlanarRotation, trig};
+use tumble_math::{Planar, PlanarRotation, trig};
 use tumble_shape::{ConvexPolygon, Disc, HalfPlane, PlanarShape, Rod};
 use tumble_sim::{
     Amount, AngularVelocity, BodyId, BodyKind, BodyTable, BodyView, ContactManifold, ContactMemory, ContactPair,
@@ -222,14 +222,10 @@ pub fn contact_force(simulation: &mut Simulation, a: &str, b: &str) -> DVec2 {
             _ => return,
         };
         for (_, memory) in Planar::points(&manifold.0).iter().zip(&memory.0) {
-            sum += frame(manifold).apply(memory.given) * side / dt;
+            sum += memory.given * side / dt;
         }
     });
     sum
-}
-
-fn frame(manifold: &ContactManifold<Planar>) -> glam::DMat2 {
-    <Planar as tumble_math::Dim>::contact_frame(Planar::normal(&manifold.0))
 }
 
 /// The deepest overlap of all contact points; negative when none touches [m].
