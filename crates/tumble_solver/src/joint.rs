@@ -86,6 +86,15 @@ impl<D: Dim> JointRow<D> {
     }
 }
 
+/// The joints of a scene, as contact models take them along.
+#[derive(Debug)]
+pub struct Joints<'a, D: Dim> {
+    /// The block, prepared for the same bodies and rows.
+    pub block: &'a mut JointBlock<D>,
+    /// All rows.
+    pub rows: &'a mut [JointRow<D>],
+}
+
 /// Where a joint holds its two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointEnds<D: Dim> {

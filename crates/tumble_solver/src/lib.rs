@@ -12,6 +12,7 @@
 
 pub mod body;
 pub mod contact;
+mod coupling;
 pub mod filter;
 pub mod impact;
 pub mod island;
@@ -19,6 +20,7 @@ pub mod joint;
 pub mod penalty;
 pub mod position;
 mod report;
+pub mod velocity_lcp;
 
 pub use body::SolverBody;
 pub use contact::{ContactRow, Slip, Surface};
