@@ -4,6 +4,7 @@
 //! ([`JointBlock::response`](crate::joint::JointBlock::response)). Two contacts are coupled only if an impulse at one reaches a body of the other, so W is kept
 //! in blocks, one per coupled pair.
 
+use tumble_lcp::Matrix as Dense;
 use tumble_math::{Dim, Linear, Matrix, Vector};
 
 use crate::island::can_move;
@@ -93,6 +94,30 @@ impl<D: Dim> Coupling<D> {
             velocity += block.apply_transposed(impulses[other as usize]);
         }
         velocity
+    }
+
+    /// W of some contacts that no others are coupled to, written out: rows contact by contact, normal first.
+    pub fn dense(&self, contacts: &[u32]) -> Dense {
+        let axes = D::Vector::AXES;
+        let mut local = vec![u32::MAX; self.own.len()];
+        for (k, contact) in contacts.iter().enumerate() {
+            local[*contact as usize] = k as u32;
+        }
+        let mut w = Dense::zeros(axes * contacts.len(), axes * contacts.len());
+        for (source, contact) in contacts.iter().enumerate() {
+            for (other, block) in self.felt_by(*contact as usize) {
+                let feels = local[other as usize] as usize;
+                for column in 0..axes {
+                    let velocity = block.column(column);
+                    for row in 0..axes {
+                        // Both halves of W are computed; their mean is symmetric to the last bit.
+                        w[(axes * feels + row, axes * source + column)] += 0.5 * velocity[row];
+                        w[(axes * source + column, axes * feels + row)] += 0.5 * velocity[row];
+                    }
+                }
+            }
+        }
+        w
     }
 
     /// Appends the contacts at the reached bodies, each once, in rising order.

@@ -19,7 +19,9 @@ pub mod island;
 pub mod joint;
 pub mod penalty;
 pub mod position;
+mod least_norm;
 mod report;
+pub mod resting_lcp;
 pub mod velocity_lcp;
 
 pub use body::SolverBody;

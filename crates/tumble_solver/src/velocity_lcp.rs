@@ -42,7 +42,6 @@
 //!
 //! Good at: simultaneous impacts, rest, exactness. Bad at: thousands of contacts in one pile. Choose it for correct answers to coupled contacts.
 
-mod least_norm;
 mod pivot;
 mod problem;
 mod solve;

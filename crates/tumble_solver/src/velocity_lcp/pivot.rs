@@ -2,33 +2,9 @@
 
 use tumble_lcp::cone::{ConeNewton, ContactSpace, FrictionProblem};
 use tumble_lcp::{Bound, Lcp, Lemke, Matrix as Dense, PrincipalPivoting};
-use tumble_math::{Dim, Matrix, Vector};
+use tumble_math::{Dim, Vector};
 
 use super::problem::Problem;
-
-/// W of an island, rows contact by contact, normal first.
-pub(super) fn dense<D: Dim>(problem: &Problem<D>, contacts: &[u32], local: &mut Vec<u32>) -> Dense {
-    let axes = D::Vector::AXES;
-    local.resize(problem.q.len(), u32::MAX);
-    for (k, contact) in contacts.iter().enumerate() {
-        local[*contact as usize] = k as u32;
-    }
-    let mut w = Dense::zeros(axes * contacts.len(), axes * contacts.len());
-    for (source, contact) in contacts.iter().enumerate() {
-        for (other, block) in problem.coupling.felt_by(*contact as usize) {
-            let feels = local[other as usize] as usize;
-            for column in 0..axes {
-                let velocity = block.column(column);
-                for row in 0..axes {
-                    // Both halves of W are computed; their mean is symmetric to the last bit.
-                    w[(axes * feels + row, axes * source + column)] += 0.5 * velocity[row];
-                    w[(axes * source + column, axes * feels + row)] += 0.5 * velocity[row];
-                }
-            }
-        }
-    }
-    w
-}
 
 /// Solves an island of the plane by pivoting, from the impulses that are there; returns the pivots, or `None` without a solution.
 ///

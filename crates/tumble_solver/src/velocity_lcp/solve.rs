@@ -3,8 +3,9 @@
 use tumble_math::{Dim, Linear, Vector};
 
 use super::problem::Problem;
-use super::{VelocityReport, VelocitySettings, VelocitySolver, least_norm, pivot, sweep};
+use super::{VelocityReport, VelocitySettings, VelocitySolver, pivot, sweep};
 use crate::contact::tangential;
+use crate::least_norm::{Freedom, make_smallest};
 use crate::{Ending, Slip, Surface};
 
 /// Up to this many rows pivoting is quicker than sweeping; beyond, its cost grows with their cube.
@@ -145,13 +146,16 @@ fn solve<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], settings: &Velocity
             return end;
         }
     }
-    let mut local = Vec::new();
-    let w = pivot::dense(problem, contacts, &mut local);
+    let w = problem.coupling.dense(contacts);
     if pivots_first && let Some(pivots) = pivot::pivot(problem, contacts, &w, bar) {
         let end = ended(problem, contacts, Method::Pivoting, pivots, bar, false);
         if end.ending == Ending::Converged {
             let vertex: Vec<D::Vector> = contacts.iter().map(|i| problem.impulses[*i as usize]).collect();
-            least_norm::make_smallest(problem, contacts, &w, bar);
+            let mut smallest = vertex.clone();
+            let mut freedoms: Vec<_> = contacts.iter().map(|i| freedom(problem, *i as usize, bar)).collect();
+            let friction: Vec<f64> = contacts.iter().map(|i| problem.friction[*i as usize]).collect();
+            make_smallest::<D>(&mut smallest, &mut freedoms, &friction, &w);
+            restore(problem, &smallest);
             let smallest = ended(problem, contacts, Method::Pivoting, pivots, bar, false);
             if smallest.ending == Ending::Converged {
                 return smallest;
@@ -173,6 +177,26 @@ fn solve<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], settings: &Velocity
         iterations = sweep::sweep(problem, contacts, bar, settings.sweeps.max(LAST_RESORT_SWEEPS)) as usize;
     }
     ended(problem, contacts, Method::Sweeps, iterations, bar, true)
+}
+
+/// What a solved contact may still do without a change of velocities.
+///
+/// A contact that touches without pushing may push, too: a leg that others relieve.
+fn freedom<D: Dim>(problem: &Problem<D>, contact: usize, tolerance: f64) -> Freedom<D::Vector> {
+    let (impulse, velocity) = (problem.impulses[contact], problem.velocity(contact));
+    let slip = tangential(velocity);
+    if velocity[0] > tolerance {
+        Freedom::None
+    } else if problem.friction[contact] == 0.0 {
+        Freedom::Along(D::Vector::unit(0))
+    } else if !problem.slips(contact, tolerance) {
+        Freedom::All
+    } else if let Some(direction) = impulse.try_normalize() {
+        Freedom::Along(direction)
+    } else {
+        let against = slip * (-problem.friction[contact] / slip.length());
+        (D::Vector::unit(0) + against).try_normalize().map_or(Freedom::None, Freedom::Along)
+    }
 }
 
 /// Sweeps where nothing else is left to try.

@@ -13,15 +13,14 @@
 use tumble_lcp::Matrix as Dense;
 use tumble_math::{Dim, Linear, Matrix, Vector};
 
-use super::problem::Problem;
 use crate::contact::tangential;
 
 /// Part of a row's length below which what is left of it after Gram–Schmidt is rounding [1].
 const DEPENDENT_BELOW: f64 = 1e-10;
 
 /// What a contact may still do.
-#[derive(Clone, Copy)]
-enum Freedom<V> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Freedom<V> {
     /// Nothing: it opens.
     None,
     /// More or less in this direction.
@@ -30,62 +29,42 @@ enum Freedom<V> {
     All,
 }
 
-/// Moves the impulses of an island to the smallest that give the same velocities.
-pub(super) fn make_smallest<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], w: &Dense, tolerance: f64) {
-    let mut freedoms: Vec<Freedom<D::Vector>> =
-        contacts.iter().map(|i| freedom(problem, *i as usize, tolerance)).collect();
+/// Moves the impulses of an island to the smallest that give the same velocities; `w` is its W, rows contact by contact.
+pub(crate) fn make_smallest<D: Dim>(
+    impulses: &mut [D::Vector],
+    freedoms: &mut [Freedom<D::Vector>],
+    friction: &[f64],
+    w: &Dense,
+) {
     // Each round ties one contact.
-    for _ in 0..=2 * contacts.len() {
-        let columns = columns::<D>(&freedoms);
-        let z: Vec<f64> =
-            columns.iter().map(|(k, direction)| direction.dot(problem.impulses[contacts[*k] as usize])).collect();
+    for _ in 0..=2 * impulses.len() {
+        let columns = columns::<D>(freedoms);
+        let z: Vec<f64> = columns.iter().map(|(k, direction)| direction.dot(impulses[*k])).collect();
         let Some(change) = towards_smallest(&gram::<D>(&columns, w), &z) else { return };
-        let mut changes = vec![D::Vector::ZERO; contacts.len()];
+        let mut changes = vec![D::Vector::ZERO; impulses.len()];
         for ((k, direction), change) in columns.iter().zip(&change) {
             changes[*k] += *direction * *change;
         }
         let mut step = 1.0;
         let mut first = None;
-        for (k, contact) in contacts.iter().enumerate() {
-            let contact = *contact as usize;
-            let friction = matches!(freedoms[k], Freedom::All).then_some(problem.friction[contact]);
-            let most = reach(problem.impulses[contact], changes[k], friction);
+        for k in 0..impulses.len() {
+            let friction = matches!(freedoms[k], Freedom::All).then_some(friction[k]);
+            let most = reach(impulses[k], changes[k], friction);
             if most < step {
                 (step, first) = (most, Some(k));
             }
         }
-        for (contact, change) in contacts.iter().zip(&changes) {
-            problem.impulses[*contact as usize] += *change * step;
-        }
+        impulses.iter_mut().zip(&changes).for_each(|(impulse, change)| *impulse += *change * step);
         let Some(k) = first else { return };
-        let impulse = &mut problem.impulses[contacts[k] as usize];
         // What rounding leaves of a normal that is used up is no direction.
-        let pushes = impulse[0] > 1e-12 * changes[k].length();
-        freedoms[k] = match (freedoms[k], impulse.try_normalize()) {
+        let pushes = impulses[k][0] > 1e-12 * changes[k].length();
+        freedoms[k] = match (freedoms[k], impulses[k].try_normalize()) {
             (Freedom::All, Some(direction)) if pushes => Freedom::Along(direction),
             _ => {
-                *impulse = D::Vector::ZERO;
+                impulses[k] = D::Vector::ZERO;
                 Freedom::None
             }
         };
-    }
-}
-
-/// A contact that touches without pushing may push, too: a leg that others relieve.
-fn freedom<D: Dim>(problem: &Problem<D>, contact: usize, tolerance: f64) -> Freedom<D::Vector> {
-    let (impulse, velocity) = (problem.impulses[contact], problem.velocity(contact));
-    let slip = tangential(velocity);
-    if velocity[0] > tolerance {
-        Freedom::None
-    } else if problem.friction[contact] == 0.0 {
-        Freedom::Along(D::Vector::unit(0))
-    } else if !problem.slips(contact, tolerance) {
-        Freedom::All
-    } else if let Some(direction) = impulse.try_normalize() {
-        Freedom::Along(direction)
-    } else {
-        let against = slip * (-problem.friction[contact] / slip.length());
-        (D::Vector::unit(0) + against).try_normalize().map_or(Freedom::None, Freedom::Along)
     }
 }
 
