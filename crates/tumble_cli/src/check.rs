@@ -1,7 +1,8 @@
-//! `tumble check`: mistakes, warnings and masses of scenes, without running anything.
+//! `tumble check`: mistakes, warnings, masses and surfaces of scenes, without running anything.
 
 use tumble_math::Planar;
-use tumble_scene::{FromScene, Loaded};
+use tumble_scene::materials::ResolvedPair;
+use tumble_scene::{FromScene, Loaded, meetings};
 use tumble_sim::{BodyKind, BodyTable, Simulation};
 
 use crate::args::CheckArguments;
@@ -34,6 +35,13 @@ fn check_one(source: &Source, page: &mut Page) -> Result<(), Failure> {
     page.line(format!("{}: {}", source.label(), contents(&loaded, &simulation)));
     page.line("");
     for line in masses(&simulation) {
+        page.line(line);
+    }
+    let surfaces = surfaces(&loaded);
+    if !surfaces.is_empty() {
+        page.line("");
+    }
+    for line in surfaces {
         page.line(line);
     }
     Ok(())
@@ -83,4 +91,26 @@ fn masses(simulation: &Simulation<Planar>) -> Vec<String> {
     }
     use Column::{Left, Right};
     table(&[Left, Left, Right, Right, Right, Right], &rows)
+}
+
+/// Friction and restitution of every pair of materials that can meet, each with where it came from; nothing without such pairs.
+fn surfaces(loaded: &Loaded) -> Vec<String> {
+    let heads = ["material", "on", "μ_s [1]", "from", "μ_k [1]", "from", "ε [1]", "from"];
+    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    for meeting in meetings(&loaded.scene) {
+        let [a, b] = meeting.materials;
+        let ResolvedPair { properties, origins, .. } = loaded.materials.pair(&a, &b);
+        rows.push(vec![
+            a,
+            b,
+            figure(properties.static_friction),
+            origins.static_friction.to_string(),
+            figure(properties.kinetic_friction),
+            origins.kinetic_friction.to_string(),
+            figure(properties.restitution),
+            origins.restitution.to_string(),
+        ]);
+    }
+    use Column::{Left, Right};
+    if rows.len() == 1 { Vec::new() } else { table(&[Left, Left, Right, Left, Right, Left, Right, Left], &rows) }
 }

@@ -18,7 +18,7 @@ fn scenes_lists_every_shipped_scene_with_what_it_shows() {
 }
 
 #[test]
-fn check_prints_masses_with_units_and_runs_nothing() {
+fn check_prints_masses_and_surfaces_with_units_and_runs_nothing() {
     let bench = Bench::new();
     let scene = r#"(
         format: 1, duration: 1e300, dt: 1e-300,
@@ -37,6 +37,9 @@ rod.ron: 2 bodies, 1 spring
 body   kind     mass [kg]  centre x [m]  y [m]  inertia [kg·m²]
 floor  static           -             0     -5                -
 rod    dynamic          2             3      2          2.66667
+
+material  on       μ_s [1]  from     μ_k [1]  from     ε [1]  from
+default   default        0  not set        0  not set      0  not set
 ";
     assert_eq!(check.stdout, expected);
     assert_eq!(bench.names("."), ["rod.ron"]);
@@ -72,7 +75,8 @@ fn check_warns_of_what_a_material_does_not_tell() {
         .tumble(["check", "lake.ron"])
         .code(0)
         .complains("kinetic friction 0.2 is above static friction 0.1")
-        .says("2 bodies, 1 warning");
+        .says("2 bodies, 1 warning")
+        .says("ice       wood      0.1  pair      0.2  pair      0  not set");
 }
 
 #[test]

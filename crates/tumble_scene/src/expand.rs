@@ -61,14 +61,15 @@ impl Scene {
 
     /// The parts of a body with those of the lists it names.
     pub fn flat_parts(&self, entry: &BodyEntry) -> Vec<Part> {
-        let mut parts = Vec::new();
-        for part in &entry.parts {
-            match part {
-                Part::List(name) => parts.extend(self.part_lists.get(name).into_iter().flatten().cloned()),
-                part => parts.push(part.clone()),
-            }
-        }
-        parts
+        self.parts_of(entry).cloned().collect()
+    }
+
+    /// The parts of a body with those of the lists it names, where they stand in the scene.
+    pub(crate) fn parts_of<'s>(&'s self, entry: &'s BodyEntry) -> impl Iterator<Item = &'s Part> {
+        entry.parts.iter().flat_map(|part| match part {
+            Part::List(name) => self.part_lists.get(name).map_or(&[][..], Vec::as_slice),
+            part => std::slice::from_ref(part),
+        })
     }
 }
 

@@ -12,10 +12,14 @@
 //! The geometric mean and the maximum are the rules of Box2D and Jolt: a material against itself keeps its own figures, a frictionless
 //! partner makes the pair frictionless, and a rubber ball bounces on whatever it meets.
 
+mod origin;
+
 use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::format::{Coefficient, FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Scene, Surface, Take};
+
+pub use origin::{Origin, PairOrigins, Remark, Source};
 
 /// The lecture's table of friction coefficients, as the file that is shipped.
 pub const LECTURE_TABLE: &str = include_str!("../../../assets/materials/lecture.ron");
@@ -88,6 +92,8 @@ impl fmt::Display for MaterialNotice {
 pub struct ResolvedPair {
     /// The figures.
     pub properties: PairProperties,
+    /// Where each of them came from.
+    pub origins: PairOrigins,
     /// Notices about the figures.
     pub notices: Vec<MaterialNotice>,
 }
@@ -181,16 +187,26 @@ impl MaterialLibrary {
 
     /// Figures of a pair, in either order of the names.
     pub fn pair(&self, a: &str, b: &str) -> ResolvedPair {
+        let (a, b) = if a <= b { (a, b) } else { (b, a) };
         let mut notices = Vec::new();
-        let (static_friction, kinetic_friction) = self.friction(a, b, &mut notices);
+        let Friction { at_rest, in_motion } = self.friction(a, b, &mut notices);
+        let (static_friction, kinetic_friction) = (at_rest.value, in_motion.value);
         if kinetic_friction > static_friction {
             notices.push(MaterialNotice::KineticAboveStatic { static_friction, kinetic_friction });
         }
         let restitution = self.restitution(a, b);
-        ResolvedPair { properties: PairProperties { static_friction, kinetic_friction, restitution }, notices }
+        ResolvedPair {
+            properties: PairProperties { static_friction, kinetic_friction, restitution: restitution.value },
+            origins: PairOrigins {
+                static_friction: at_rest.origin,
+                kinetic_friction: in_motion.origin,
+                restitution: restitution.origin,
+            },
+            notices,
+        }
     }
 
-    fn friction(&self, a: &str, b: &str, notices: &mut Vec<MaterialNotice>) -> (f64, f64) {
+    fn friction(&self, a: &str, b: &str, notices: &mut Vec<MaterialNotice>) -> Friction {
         let of_pair = self.friction_of_pair(a, b);
         let of_materials =
             [a, b].into_iter().filter_map(|name| Some(self.materials.get(name)?.friction.as_ref()?.0)).max();
@@ -200,12 +216,17 @@ impl MaterialLibrary {
             if used != self.surface {
                 notices.push(MaterialNotice::OtherSurface { used });
             }
-            return self.both(friction, notices);
+            return self.both(friction, &Source::Pair, notices).known_for(used, self.surface);
         }
-        // The same names in the other order must give the same bits: multiplication commutes.
-        let (static_a, kinetic_a) = self.friction_of_material(a, notices);
-        let (static_b, kinetic_b) = if a == b { (static_a, kinetic_a) } else { self.friction_of_material(b, notices) };
-        (geometric_mean(static_a, static_b), geometric_mean(kinetic_a, kinetic_b))
+        let of_a = self.friction_of_material(a, notices);
+        if a == b {
+            return of_a;
+        }
+        let of_b = self.friction_of_material(b, notices);
+        Friction {
+            at_rest: Figure::combined(of_a.at_rest, of_b.at_rest),
+            in_motion: Figure::combined(of_a.in_motion, of_b.in_motion),
+        }
     }
 
     /// The listed friction of a pair, the table it is from and the surface state it is for.
@@ -220,52 +241,107 @@ impl MaterialLibrary {
     }
 
     /// What a material brings into unlisted pairs.
-    fn friction_of_material(&self, name: &str, notices: &mut Vec<MaterialNotice>) -> (f64, f64) {
+    fn friction_of_material(&self, name: &str, notices: &mut Vec<MaterialNotice>) -> Friction {
         let own = self.materials.get(name).and_then(|material| material.friction.as_ref());
         let with_itself = self.friction_of_pair(name, name);
         match (own, with_itself) {
-            // One coefficient of a material is documented to stand for both, so nothing is noticed.
-            (Some((_, friction)), None) => self.both(friction, &mut Vec::new()),
-            (Some((table, friction)), Some((pair_table, ..))) if *table > pair_table => {
-                self.both(friction, &mut Vec::new())
+            (Some((table, friction)), pair) if pair.is_none_or(|(pair_table, ..)| *table > pair_table) => {
+                // One coefficient of a material is documented to stand for both, so nothing is noticed.
+                self.both(friction, &Source::Material(name.to_owned()), &mut Vec::new())
             }
-            (_, Some((_, friction, _))) => self.both(friction, notices),
-            (None, None) => {
+            (_, Some((_, friction, used))) => self.both(friction, &Source::Pair, notices).known_for(used, self.surface),
+            (_, None) => {
                 let is_declared = self.materials.get(name).is_none_or(|material| material.is_declared);
                 if !is_declared {
                     notices.push(MaterialNotice::NoFriction { material: name.to_owned() });
                 }
-                (0.0, 0.0)
+                Friction::default()
             }
         }
     }
 
     /// Static and kinetic coefficient, one standing for the other where it is absent.
-    fn both(&self, friction: &FrictionEntry, notices: &mut Vec<MaterialNotice>) -> (f64, f64) {
-        let take = |coefficient: Option<Coefficient>| coefficient.map(|coefficient| coefficient.take(self.take));
+    fn both(&self, friction: &FrictionEntry, source: &Source, notices: &mut Vec<MaterialNotice>) -> Friction {
+        let take = |coefficient: Option<Coefficient>| {
+            let coefficient = coefficient?;
+            let is_range = coefficient.low != coefficient.high;
+            let remarks = is_range.then_some(Remark::OutOf(coefficient, self.take)).into_iter().collect();
+            Some(Figure { value: coefficient.take(self.take), origin: Origin { source: source.clone(), remarks } })
+        };
         match (take(friction.static_friction), take(friction.kinetic_friction)) {
-            (Some(static_friction), Some(kinetic_friction)) => (static_friction, kinetic_friction),
-            (Some(value), None) => {
-                notices.push(MaterialNotice::OneForBoth { absent: "kinetic", value });
-                (value, value)
+            (Some(at_rest), Some(in_motion)) => Friction { at_rest, in_motion },
+            (Some(at_rest), None) => {
+                notices.push(MaterialNotice::OneForBoth { absent: "kinetic", value: at_rest.value });
+                Friction { in_motion: at_rest.clone().remarked(Remark::Like("μ_s")), at_rest }
             }
-            (None, Some(value)) => {
-                notices.push(MaterialNotice::OneForBoth { absent: "static", value });
-                (value, value)
+            (None, Some(in_motion)) => {
+                notices.push(MaterialNotice::OneForBoth { absent: "static", value: in_motion.value });
+                Friction { at_rest: in_motion.clone().remarked(Remark::Like("μ_k")), in_motion }
             }
-            (None, None) => (0.0, 0.0),
+            (None, None) => Friction::default(),
         }
     }
 
-    fn restitution(&self, a: &str, b: &str) -> f64 {
+    fn restitution(&self, a: &str, b: &str) -> Figure {
         let of_pair = self.pairs.get(&sorted(a, b)).and_then(|pair| pair.restitution);
         let of_material = |name| self.materials.get(name).and_then(|material: &Material| material.restitution);
         let (of_a, of_b) = (of_material(a), of_material(b));
         let table = |figure: FromTable<f64>| figure.map(|(table, _)| table);
-        match of_pair {
-            Some((pair_table, restitution)) if Some(pair_table) >= table(of_a).max(table(of_b)) => restitution,
-            _ => [of_a, of_b].into_iter().flatten().map(|(_, restitution)| restitution).fold(0.0, f64::max),
+        let figure = |value, source| Figure { value, origin: Origin { source, remarks: Vec::new() } };
+        match (of_pair, of_a, of_b) {
+            (Some((pair_table, restitution)), ..) if Some(pair_table) >= table(of_a).max(table(of_b)) => {
+                figure(restitution, Source::Pair)
+            }
+            (_, Some((_, of_a)), of_b) if of_b.is_none_or(|(_, of_b)| of_a >= of_b) => {
+                figure(of_a, Source::Bouncier(a.to_owned()))
+            }
+            (_, _, Some((_, of_b))) => figure(of_b, Source::Bouncier(b.to_owned())),
+            (_, _, None) => Figure::default(),
         }
+    }
+}
+
+/// A number and where it came from.
+#[derive(Clone, Debug, Default)]
+struct Figure {
+    value: f64,
+    origin: Origin,
+}
+
+/// Both coefficients of friction.
+#[derive(Clone, Debug, Default)]
+struct Friction {
+    at_rest: Figure,
+    in_motion: Figure,
+}
+
+impl Friction {
+    /// Remarks that the figures are for another state of the surfaces than the one that is wanted.
+    fn known_for(self, used: Surface, wanted: Surface) -> Self {
+        if used == wanted {
+            return self;
+        }
+        let remark = Remark::Surface(used);
+        Self { at_rest: self.at_rest.remarked(remark), in_motion: self.in_motion.remarked(remark) }
+    }
+}
+
+impl Figure {
+    fn remarked(mut self, remark: Remark) -> Self {
+        self.origin.remarks.push(remark);
+        self
+    }
+
+    /// √(a b), exactly a where both are equal; multiplication commutes, so the order of the two changes no bit.
+    fn combined(a: Self, b: Self) -> Self {
+        let value = if a.value == b.value { a.value } else { (a.value * b.value).sqrt() };
+        if [&a, &b].iter().any(|factor| factor.origin.source == Source::Unset) {
+            return Self { value, origin: Origin::default() };
+        }
+        let mut remarks = a.origin.remarks;
+        let of_b = b.origin.remarks.into_iter().filter(|remark| !remarks.contains(remark)).collect::<Vec<_>>();
+        remarks.extend(of_b);
+        Self { value, origin: Origin { source: Source::Combined(a.value, b.value), remarks } }
     }
 }
 
@@ -289,9 +365,4 @@ fn replace<T>(place: &mut FromTable<T>, table: usize, value: Option<T>) {
 
 fn sorted(a: &str, b: &str) -> (String, String) {
     if a <= b { (a.to_owned(), b.to_owned()) } else { (b.to_owned(), a.to_owned()) }
-}
-
-/// √(a b), exactly a where both are equal.
-fn geometric_mean(a: f64, b: f64) -> f64 {
-    if a == b { a } else { (a * b).sqrt() }
 }

@@ -1,7 +1,8 @@
-//! The lecture's table and the look-up of pairs.
+//! The lecture's table, the look-up of pairs, where figures come from, and which materials can meet.
 
 use tumble_scene::format::{Scene, Surface, Take};
 use tumble_scene::materials::{MaterialLibrary, MaterialNotice, PairProperties, lecture_table};
+use tumble_scene::{Loaded, meetings};
 
 /// Lowest and highest figure; `None` where the table has none.
 type Range = Option<(f64, f64)>;
@@ -46,9 +47,14 @@ fn library(surface: Surface, take: Take) -> MaterialLibrary {
     MaterialLibrary::of_scene(&Scene { surface, take, ..Scene::default() })
 }
 
+/// A scene with these bodies and tables.
+fn lay_out(text: &str) -> Loaded {
+    let text = format!("(format: 1, duration: 1.0, allow_overlap: true, {text})");
+    Scene::parse(&text, "test.ron").unwrap_or_else(|mistakes| panic!("{mistakes}"))
+}
+
 fn library_of(text: &str) -> MaterialLibrary {
-    let text = format!("(format: 1, duration: 1.0, bodies: [], {text})");
-    Scene::parse(&text, "test.ron").unwrap_or_else(|mistakes| panic!("{mistakes}")).materials
+    lay_out(&format!("bodies: [], {text}")).materials
 }
 
 #[test]
@@ -226,4 +232,103 @@ fn mistakes_of_a_table_are_told_with_its_own_lines() {
     assert!(message.contains("bad.ron:3:60"), "{message}");
     assert!(message.contains("a friction coefficient must not be negative"), "{message}");
     assert!(message.contains("none.ron\" cannot be read"), "{message}");
+}
+
+/// The pairs that can meet, as `a+b`.
+fn pairs(text: &str) -> Vec<String> {
+    meetings(&lay_out(text).scene).into_iter().map(|meeting| meeting.materials.join("+")).collect()
+}
+
+#[test]
+fn materials_meet_where_a_body_moves_and_two_bodies_are_there() {
+    let floor_and_ball = r#"bodies: [
+        (name: "floor", kind: Static, material: "ice", parts: [HalfPlane()]),
+        (name: "lift", kind: Kinematic, material: "glass", parts: [Disc(radius: 1)]),
+        (name: "ball", material: "wood", parts: [Disc(radius: 1)]),
+    ]"#;
+    assert_eq!(
+        pairs(floor_and_ball),
+        ["glass+wood", "ice+wood"],
+        "one ball meets no other, and what is driven meets no floor"
+    );
+    let two_balls = r#"bodies: [(name: "ball", material: "wood", parts: [Disc(radius: 1)], repeat: Line(count: 2, spacing: (3, 0)))]"#;
+    assert_eq!(pairs(two_balls), ["wood+wood"]);
+    let plain =
+        r#"bodies: [(name: "a", parts: [Disc(radius: 1)]), (name: "b", parts: [Disc(radius: 1, material: "ice")])]"#;
+    assert_eq!(pairs(plain), ["default+ice"]);
+}
+
+#[test]
+fn sensors_groups_and_ignored_bodies_keep_materials_apart() {
+    let sensor = r#"bodies: [
+        (name: "gate", kind: Static, material: "ice", parts: [Box(size: (1, 1), sensor: true)]),
+        (name: "ball", material: "wood", parts: [Disc(radius: 1)]),
+    ]"#;
+    assert!(pairs(sensor).is_empty());
+    let grouped = |groups: &str| {
+        pairs(&format!(
+            r#"bodies: [
+                (name: "wall", kind: Static, material: "ice", groups: ["walls"], parts: [Box(size: (1, 1))]),
+                (name: "ball", material: "wood", groups: ["balls"], collides_with: [{groups}], parts: [Disc(radius: 1)]),
+            ]"#
+        ))
+    };
+    assert_eq!(grouped(r#""walls", "balls""#), ["ice+wood"]);
+    assert!(grouped(r#""balls""#).is_empty());
+    let ignored = |ignores: &str| {
+        pairs(&format!(
+            r#"bodies: [
+                (name: "ball", material: "wood", parts: [Disc(radius: 1)], repeat: Line(count: 2, spacing: (3, 0))),
+                (name: "box", material: "ice", ignores: [{ignores}], parts: [Box(size: (1, 1))]),
+            ]"#
+        ))
+    };
+    assert_eq!(ignored(r#""ball-0""#), ["ice+wood", "wood+wood"], "the other ball still meets the box");
+    assert_eq!(ignored(r#""ball""#), ["wood+wood"]);
+}
+
+#[test]
+fn notices_are_about_materials_that_can_meet() {
+    // Steel against itself has a kinetic coefficient only in the scene's own table, which two steel bodies would need.
+    let scene = |ignores: &str| {
+        lay_out(&format!(
+            r#"pairs: [(between: ("tin", "tin"), dry: (kinetic_friction: 0.4))], bodies: [
+                (name: "a", material: "tin", parts: [Disc(radius: 1)]),
+                (name: "b", material: "tin", ignores: [{ignores}], parts: [Disc(radius: 1)]),
+            ]"#
+        ))
+    };
+    assert!(scene("").warnings.to_string().contains("\"tin\" on \"tin\": no static friction is known"));
+    assert_eq!(scene(r#""a""#).warnings.len(), 0);
+}
+
+#[test]
+fn each_figure_says_where_it_came_from() {
+    let library = library_of(
+        r#"surface: Dry,
+        materials: {
+            "ball": (static_friction: 0.4, restitution: 0.9),
+            "floor": (static_friction: (0.2, 0.6), kinetic_friction: 0.1, restitution: 0.2),
+            "felt": (),
+        },
+        pairs: [
+            (between: ("cup", "table"), dry: (static_friction: (0.2, 0.6)), restitution: 0.5),
+            (between: ("cup", "tray"), lubricated: (static_friction: 0.1, kinetic_friction: 0.1)),
+        ]"#,
+    );
+    let origins = |a: &str, b: &str| {
+        let origins = library.pair(a, b).origins;
+        assert_eq!(origins, library.pair(b, a).origins, "in either order");
+        [origins.static_friction, origins.kinetic_friction, origins.restitution].map(|origin| origin.to_string())
+    };
+    assert_eq!(origins("cup", "table"), ["pair, middle of 0.2 to 0.6", "pair, middle of 0.2 to 0.6, like μ_s", "pair"]);
+    assert_eq!(origins("cup", "tray"), ["pair, of lubricated surfaces", "pair, of lubricated surfaces", "not set"]);
+    assert_eq!(origins("ball", "ball"), ["\"ball\"", "\"ball\", like μ_s", "\"ball\""]);
+    assert_eq!(
+        origins("floor", "ball"),
+        ["√(0.4 · 0.4), middle of 0.2 to 0.6", "√(0.4 · 0.1), like μ_s", "\"ball\""],
+        "the materials combine, and the one that bounces more decides"
+    );
+    assert_eq!(origins("felt", "floor"), ["not set", "not set", "\"floor\""]);
+    assert_eq!(origins("cup", "cup"), ["not set"; 3]);
 }

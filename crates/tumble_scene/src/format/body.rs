@@ -188,6 +188,17 @@ pub enum Groups {
 impl Groups {
     /// Every group, named or not.
     pub const ALL: Self = Self::Bits(u32::MAX);
+
+    /// Whether the two sets have a group in common; a scene that mixes names with bits is refused.
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Bits(bits), Self::Bits(others)) => bits & others != 0,
+            (Self::Names(names), Self::Names(others)) => names.iter().any(|name| others.contains(name)),
+            (Self::Bits(bits), Self::Names(names)) | (Self::Names(names), Self::Bits(bits)) => {
+                *bits != 0 && !names.is_empty()
+            }
+        }
+    }
 }
 
 impl Default for Groups {

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Findings;
 use crate::diagnostics::Diagnostic;
-use crate::expand::count;
-use crate::format::{BodyKind, Coefficient, FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Scene};
-use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
+use crate::format::{Coefficient, FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Scene};
+use crate::materials::MaterialLibrary;
+use crate::meetings::{Meeting, meetings};
 use crate::path::ScenePath;
 
 /// Every mistake of a table.
@@ -68,48 +68,14 @@ fn restitution(path: &ScenePath, restitution: Option<f64>, found: &mut Findings)
     }
 }
 
-/// Notices about every pair of materials that bodies of the scene could bring together.
+/// Notices about every pair of materials that can meet in the scene.
 pub(super) fn notices(scene: &Scene, library: &MaterialLibrary, found: &mut Findings) {
-    let uses = uses(scene);
-    let materials: Vec<(&String, &Use)> = uses.iter().collect();
-    for (index, (a, use_a)) in materials.iter().enumerate() {
-        for (b, use_b) in &materials[index..] {
-            let can_meet = (use_a.movers > 0 || use_b.movers > 0) && (a != b || use_a.bodies > 1);
-            if !can_meet {
-                continue;
-            }
-            for notice in library.pair(a, b).notices {
-                let message = format!("\"{a}\" on \"{b}\": {notice}");
-                let diagnostic = Diagnostic::warning(message).about(use_a.path.clone()).labelled("used here");
-                found.add(if a == b { diagnostic } else { diagnostic.also_about(use_b.path.clone(), "and here") });
-            }
+    for Meeting { materials: [a, b], places: [place_a, place_b] } in meetings(scene) {
+        for notice in library.pair(&a, &b).notices {
+            let diagnostic = Diagnostic::warning(format!("\"{a}\" on \"{b}\": {notice}"));
+            let diagnostic = diagnostic.about(place_a.clone()).labelled("used here");
+            let is_one_place = place_a == place_b;
+            found.add(if is_one_place { diagnostic } else { diagnostic.also_about(place_b.clone(), "and here") });
         }
     }
-}
-
-/// Where and how often a material is used.
-struct Use {
-    path: ScenePath,
-    bodies: u64,
-    movers: u64,
-}
-
-fn uses(scene: &Scene) -> BTreeMap<String, Use> {
-    let mut uses: BTreeMap<String, Use> = BTreeMap::new();
-    for (index, body) in scene.bodies.iter().enumerate() {
-        let path = ScenePath::root().field("bodies").index(index);
-        let own = body.material.as_deref().unwrap_or(DEFAULT_MATERIAL);
-        let mut names: BTreeMap<String, ScenePath> = BTreeMap::new();
-        for part in scene.flat_parts(body) {
-            let material = part.material().unwrap_or(own).to_owned();
-            let field = if part.material().is_none() && body.material.is_some() { "material" } else { "name" };
-            names.entry(material).or_insert_with(|| path.field(field));
-        }
-        for (name, path) in names {
-            let entry = uses.entry(name).or_insert(Use { path, bodies: 0, movers: 0 });
-            entry.bodies += count(body);
-            entry.movers += if body.kind == BodyKind::Dynamic { count(body) } else { 0 };
-        }
-    }
-    uses
 }
