@@ -20,6 +20,8 @@ pub mod plot;
 mod recorder;
 mod recording;
 pub mod replay;
+mod sampling;
+mod springs;
 mod summary;
 pub mod tables;
 mod thin;
@@ -32,7 +34,8 @@ pub use fingerprint::{Fingerprint, FingerprintHasher, ParseFingerprintError};
 pub use output::{OutputError, write_run};
 pub use recorder::Record;
 pub use recording::{
-    AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, Touch,
-    TouchPhase,
+    AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, SpringEnd,
+    SpringRecord, Touch, TouchPhase,
 };
+pub use sampling::Sampling;
 pub use summary::{Summary, energy_drift};

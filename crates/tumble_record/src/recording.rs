@@ -22,6 +22,9 @@ pub struct Recording {
     pub length_scale: f64,
     /// All bodies that were ever in the world; everything else refers to them by their index here.
     pub bodies: Vec<BodyRecord>,
+    /// All springs that were ever in the world, in the order they appeared.
+    #[serde(default)]
+    pub springs: Vec<SpringRecord>,
     /// States and contacts at the sampled steps, in the order of time.
     pub samples: Vec<Sample>,
     /// Sums over the whole world, one row per step; empty when audits were off.
@@ -98,6 +101,30 @@ pub enum Geometry {
         /// Unit vector out of the solid [1].
         normal: DVec2,
     },
+}
+
+/// A spring between two points.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpringRecord {
+    /// One end.
+    pub a: SpringEnd,
+    /// The other end.
+    pub b: SpringEnd,
+    /// Length without force [m].
+    pub rest_length: f64,
+    /// Since when it is there [s].
+    pub from: f64,
+    /// From when on it is gone; `None` if it stayed to the end [s].
+    pub until: Option<f64>,
+}
+
+/// Where an end of a spring is held.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpringEnd {
+    /// Index of the body; `None` for a point of the world.
+    pub body: Option<usize>,
+    /// The point, in the body frame, or in world axes without a body [m].
+    pub point: DVec2,
 }
 
 /// The world at one sampled step.

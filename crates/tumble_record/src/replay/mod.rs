@@ -13,7 +13,7 @@ use std::io::{self, Write};
 use glam::DVec2;
 use serde::Serialize;
 
-use crate::recording::{AuditRow, BodyKind, BodyRecord, Recording, Sample, ShapeRecord};
+use crate::recording::{AuditRow, BodyKind, BodyRecord, Recording, Sample, ShapeRecord, SpringRecord};
 use crate::thin::keep_extremes;
 use encode::{floats, words};
 
@@ -52,6 +52,7 @@ struct Data<'a> {
     contact: &'a str,
     dt: f64,
     bodies: Vec<Body<'a>>,
+    springs: &'a [SpringRecord],
     /// Number of samples before thinning.
     recorded_samples: usize,
     steps: Vec<u64>,
@@ -98,6 +99,7 @@ impl<'a> Data<'a> {
             contact: &recording.contact,
             dt: recording.dt,
             bodies: recording.bodies.iter().map(Body::new).collect(),
+            springs: &recording.springs,
             recorded_samples: recording.samples.len(),
             steps: samples.iter().map(|sample| sample.step).collect(),
             times: samples.iter().map(|sample| sample.time).collect(),

@@ -37,6 +37,8 @@ if (recording.times.length < recording.recorded_samples) {
     `To keep this file small it shows ${count(recording.times.length)} of ${count(recording.recorded_samples)} samples; the tables have all of them.`;
 }
 
+element("springs-choice").hidden = recording.springs.length === 0;
+
 /** Goes to a time; contacts are those of the sample there, or of the strongest one passed on the way. */
 function goTo(time, { passing = false } = {}) {
   const earlier = indexAt(recording.times, player.time);
@@ -107,6 +109,7 @@ function draw() {
   view.draw(time, player.contactSample, {
     forces: element("show-forces").checked,
     contacts: element("show-contacts").checked,
+    springs: element("show-springs").checked,
     names: element("show-names").checked,
     trails: element("show-trails").checked,
     arrowScale: 10 ** Number(element("arrow-scale").value),
@@ -155,7 +158,7 @@ element("slider").addEventListener("input", (event) => {
   pause();
   goTo(firstTime + Number(event.target.value) * (lastTime - firstTime));
 });
-for (const id of ["show-forces", "show-contacts", "show-names", "show-trails", "arrow-scale"]) {
+for (const id of ["show-forces", "show-contacts", "show-springs", "show-names", "show-trails", "arrow-scale"]) {
   element(id).addEventListener("input", redraw);
 }
 document.addEventListener("keydown", (event) => {
@@ -208,7 +211,7 @@ function followHash() {
   if (match && Number.isFinite(Number(match[1]))) { pause(); goTo(Number(match[1])); }
 }
 window.addEventListener("hashchange", followHash);
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { colors.clear(); redraw(); });
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { colors.clear(); view.hatchings?.clear(); redraw(); });
 new ResizeObserver(() => { if (view.fitted) view.everFitted = false; redraw(); }).observe(element("stage"));
 
 showPlaying();

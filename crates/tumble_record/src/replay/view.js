@@ -25,9 +25,12 @@ class View {
         ys.push(wy - radius, wy + radius);
       }
     });
+    const startXs = [], startYs = [];
+    for (const { body, point: [x, y] } of recording.springs.flatMap(({ a, b }) => [a, b])) {
+      if (body === null) { startXs.push(x); startYs.push(y); }
+    }
     const stride = Math.max(1, Math.floor((bodies.length * times.length) / 50000));
     for (let sample = 0; sample < times.length; sample += stride) collect(times[sample], xs, ys);
-    const startXs = [], startYs = [];
     collect(firstTime, startXs, startYs);
     const [left, right] = nearlyAll(xs, startXs), [low, high] = nearlyAll(ys, startYs);
 
@@ -80,6 +83,7 @@ class View {
       if (kind === "dynamic" && options.trails) this.drawTrails(time);
       recording.bodies.forEach((body, index) => { if (body.kind === kind) this.drawBody(body, index); });
     }
+    if (options.springs) this.drawSprings(time);
     if (options.names) this.drawNames();
     const contacts = recording.times.length ? contactsOf(sample) : [];
     if (options.contacts) this.drawContacts(contacts);
@@ -122,7 +126,19 @@ class View {
       context.strokeStyle = context.fillStyle = ink;
       context.lineWidth = 2;
       if (sensor) context.setLineDash([5, 5]);
-      const fill = () => { context.globalAlpha = sensor ? .06 : .22; context.fill(); context.globalAlpha = 1; context.stroke(); };
+      const fill = () => {
+        context.globalAlpha = sensor ? .06 : body.kind === "dynamic" ? .22 : .12;
+        context.fill();
+        // What no force moves is hatched, like the ground.
+        if (body.kind !== "dynamic" && !sensor) {
+          context.globalAlpha = .5;
+          context.fillStyle = this.hatching(ink, sx, sy, pose.angle);
+          context.fill();
+          context.fillStyle = ink;
+        }
+        context.globalAlpha = 1;
+        context.stroke();
+      };
       if (geometry.Rod) this.drawRod(geometry.Rod, place, far, fill);
       if (geometry.Disc) this.drawDisc(geometry.Disc, place, fill);
       if (geometry.Polygon) {
@@ -168,6 +184,66 @@ class View {
     context.beginPath();
     context.moveTo(x, y); context.lineTo(...place([centre[0] + radius, centre[1]]));
     context.stroke();
+  }
+
+  /** Slanting lines in a colour, fixed to a body that stands at a pixel. */
+  hatching(ink, x, y, angle) {
+    const spacing = 8, ratio = window.devicePixelRatio || 1;
+    this.hatchings ??= new Map();
+    if (!this.hatchings.has(ink)) {
+      const tile = document.createElement("canvas");
+      tile.width = tile.height = Math.round(spacing * ratio);
+      const pen = tile.getContext("2d");
+      pen.scale(tile.width / spacing, tile.height / spacing);
+      pen.strokeStyle = ink;
+      pen.beginPath();
+      // Lines to the corners too, so that the tiles join.
+      for (const shift of [-spacing, 0, spacing]) { pen.moveTo(shift - 1, spacing + 1); pen.lineTo(shift + spacing + 1, -1); }
+      pen.stroke();
+      this.hatchings.set(ink, { tile, pattern: this.context.createPattern(tile, "repeat") });
+    }
+    const { tile, pattern } = this.hatchings.get(ink);
+    pattern.setTransform(new DOMMatrix().translate(x, y).rotate((-angle * 180) / Math.PI).scale(spacing / tile.width));
+    return pattern;
+  }
+
+  /** Zigzags between the ends of springs, as wide as their length without force says. */
+  drawSprings(time) {
+    const { context, camera } = this;
+    const windings = 9;
+    context.strokeStyle = context.fillStyle = color("--spring");
+    context.lineWidth = 1.5;
+    for (const { a, b, rest_length, from, until } of recording.springs) {
+      // An end held by a body that is not in the world is nowhere.
+      const ends = [a, b].map((end) => this.endOfSpring(end));
+      if (time < from || time >= (until ?? Infinity) || !ends.flat().every(Number.isFinite)) continue;
+      const [[ax, ay], [bx, by]] = ends;
+      const length = Math.hypot(bx - ax, by - ay), wide = Math.min(.06 * rest_length * camera.scale, 7);
+      if (length > 2) {
+        const [ux, uy] = [(bx - ax) / length, (by - ay) / length];
+        const lead = Math.min(.15 * length, 12), coil = (length - 2 * lead) / (2 * windings);
+        context.beginPath();
+        context.moveTo(ax, ay);
+        for (let i = 0; i <= 2 * windings; i++) {
+          const along = lead + i * coil, aside = i === 0 || i === 2 * windings ? 0 : i % 2 ? wide : -wide;
+          context.lineTo(ax + ux * along - uy * aside, ay + uy * along + ux * aside);
+        }
+        context.lineTo(bx, by);
+        context.stroke();
+      }
+      for (const [end, [x, y]] of [[a, ends[0]], [b, ends[1]]]) {
+        context.beginPath();
+        // A ring is held by the world, a dot by a body.
+        context.arc(x, y, end.body === null ? 4 : 2.4, 0, 7);
+        if (end.body === null) context.stroke(); else context.fill();
+      }
+    }
+  }
+
+  /** Where the end of a spring is, in pixels. */
+  endOfSpring({ body, point: [x, y] }) {
+    const pose = body === null ? { x: 0, y: 0, cos: 1, sin: 0 } : this.poses[body];
+    return this.toScreen(pose.x + pose.cos * x - pose.sin * y, pose.y + pose.sin * x + pose.cos * y);
   }
 
   /** Fills the solid side, hatched along its surface; the hatching is fixed to the surface and does not swim. */

@@ -9,8 +9,8 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 use tumble_record::{
-    AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, Touch,
-    TouchPhase,
+    AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, SpringEnd,
+    SpringRecord, Touch, TouchPhase,
 };
 
 const DT: f64 = 1e-3;
@@ -32,6 +32,15 @@ fn solid(geometry: Geometry) -> ShapeRecord {
 
 fn body(id: u64, name: &str, kind: BodyKind, shapes: Vec<ShapeRecord>) -> BodyRecord {
     BodyRecord { id, name: name.to_owned(), kind, mass: 1.0, inertia: 0.12, shapes }
+}
+
+fn end_of(body: usize) -> SpringEnd {
+    SpringEnd { body: Some(body), point: DVec2::ZERO }
+}
+
+/// A spring for the eye: it pulls nobody.
+fn spring(a: SpringEnd, body: usize) -> SpringRecord {
+    SpringRecord { a, b: end_of(body), rest_length: 1.0, from: 0.0, until: None }
 }
 
 /// Records `seconds` of the fall, with a sample every `every` steps.
@@ -87,6 +96,7 @@ pub fn falling_rods(seconds: f64, every: u64) -> Recording {
         dt: DT,
         length_scale: 1.0,
         bodies,
+        springs: vec![spring(SpringEnd { body: None, point: DVec2::new(0.0, 4.0) }, 0), spring(end_of(2), 4)],
         ..Recording::default()
     };
     let mut touched = false;
