@@ -1,8 +1,8 @@
 //! Simulations are held to what was promised of them, by a scene or in code.
 
 use glam::{DVec2, dvec2};
-use tumble_record::Record;
-use tumble_scene::expect::{NotMeasured, Status};
+use tumble_record::{Record, Sampling};
+use tumble_scene::expect::{NotMeasured, Status, watched_steps};
 use tumble_scene::format::{
     BodyEntry, DiscPart, Expectation, ForceExpectation, Part, ScalarExpectation, Scene, TargetForce,
 };
@@ -103,5 +103,67 @@ fn a_simulation_built_in_code_is_checked_too() -> Result<(), Box<dyn std::error:
     simulation.run_for(0.5)?;
     let verdict = simulation.check();
     assert!(verdict.passed(), "{verdict}");
+    Ok(())
+}
+
+#[test]
+fn a_promise_about_a_repeated_body_is_one_about_each_copy() -> Result<(), Box<dyn std::error::Error>> {
+    // Each ball falls by 4.954 m; the highest of them began at 12 m.
+    let text = r#"(
+        format: 1, duration: 1,
+        bodies: [
+            (name: "ball", at: (0, 10), parts: [Disc(radius: 0.1)], repeat: Line(count: 3, spacing: (0, 1))),
+            (name: "floor", kind: Static, parts: [HalfPlane()]),
+        ],
+        expect: [
+            VelocityY(of: "ball", at: 1, is: -9.81, within: 1e-12),
+            Y(of: "ball", at: 1, below: 7),
+            Never(event: Touch("ball", "ball")),
+            Never(event: Touch("floor", "ball")),
+            Depth(below: 0),
+        ],
+    )"#;
+    let mut simulation = Simulation::from_loaded(&Scene::parse(text, "balls.ron")?)?;
+    simulation.run_scene()?;
+    let verdict = simulation.check();
+    let failed: Vec<_> = verdict.failures().map(|failure| (failure.index, failure.body.as_deref())).collect();
+    assert_eq!(failed, [(1, Some("ball-2"))], "{verdict}");
+    Ok(())
+}
+
+#[test]
+fn samples_of_the_steps_that_are_watched_give_the_verdict_of_all_steps() -> Result<(), Box<dyn std::error::Error>> {
+    let text = r#"(
+        format: 1, duration: 2, contact: Impulse, materials: { "default": (static_friction: 0.5, restitution: 0.5) },
+        bodies: [
+            (name: "ball", at: (0, 1), velocity: (0.3, 0), parts: [Disc(radius: 0.1)], repeat: Line(count: 2, spacing: (1, 0))),
+            (name: "floor", kind: Static, parts: [HalfPlane()]),
+        ],
+        expect: [
+            Position(of: "ball-0", at: 0.333, is: (0, 0), within: 1e-9),
+            Angle(of: "ball", at: 1.2345, is_degrees: 7, within_degrees: 1),
+            Speed(of: "ball-1", from: 0.4, until: 0.6, below: 1),
+            AtRest(from: 1.9),
+            ContactForceSum(on: "ball", by: "floor", at: 0.0, is: Weight, within: 1e-9),
+            ContactForceSum(on: "ball", from: 1.777, is: Weight, within: 1e-9),
+            FrictionForce(on: "ball-0", at: 0.43, is: 1, within: 1e-9),
+            Depth(below: 0), EnergyNeverRises(slack: 0), MomentumKept(within: 0),
+            Order(events: [Touch("ball", "floor"), Part("ball", "floor")]),
+            Fingerprint(is: "00000000000000000000000000000000"),
+        ],
+    )"#;
+    let scene = Scene::parse(text, "balls.ron")?.scene;
+    let verdict_of = |sampling: Sampling| {
+        let mut simulation = Simulation::from_scene(&scene)?;
+        simulation.record_sampled(sampling)?;
+        simulation.run_scene()?;
+        let samples = simulation.recording().map_or(0, |recording| recording.samples.len());
+        Ok::<_, Box<dyn std::error::Error>>((simulation.check(), samples))
+    };
+    let (full, _) = verdict_of(Sampling::every(1))?;
+    assert!(full.outcomes.iter().all(|outcome| outcome.measured.is_some()), "{full}");
+    let (watched, samples) = verdict_of(Sampling::every(1000).and(watched_steps(&scene, scene.contact)))?;
+    assert_eq!(watched, full);
+    assert!(samples < 80, "{samples} of 201 steps are sampled");
     Ok(())
 }

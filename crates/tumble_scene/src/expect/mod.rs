@@ -10,7 +10,8 @@
 //!   Forces are averaged over the window as vectors, and a magnitude is that of the average.
 //! - **Never reached has failed**: a time past the end of the recording, or a claim about the whole run of a run that stopped early.
 //! - **Not a number has failed**, whichever way it is compared.
-//! - `within`, `slack`: the tolerance itself is allowed. `above`, `below`: the bound itself is not.
+//! - `within`, `slack`: the tolerance itself is allowed. `above`, `below`: the bound itself is not, save that a depth may be equal to it,
+//!   so that 0 means no overlap at all.
 //! - A repeated body's name means all of its copies, and each of them must hold. For `by` and for events it means any of them.
 //! - **Touch** of two bodies is the first of their parts to touch, **part** the last to leave; where one part takes over from another
 //!   within a step, the bodies stay in touch. Bodies that touch from the start begin to do so in the first step. Of two events in
@@ -23,6 +24,7 @@ mod print;
 mod state;
 mod timeline;
 mod verdict;
+mod watched;
 mod world;
 
 #[cfg(test)]
@@ -36,6 +38,7 @@ use crate::format::{ContactModel, Expectation, ScalarExpectation, Scene};
 use timeline::Timeline;
 
 pub use verdict::{Expected, Measured, Near, NotMeasured, Outcome, Status, Verdict};
+pub use watched::watched_steps;
 
 /// Compares every expectation of a scene with what was recorded under a contact model.
 pub fn evaluate(scene: &Scene, model: ContactModel, recording: &Recording) -> Verdict {

@@ -219,7 +219,7 @@ impl From<&AtRestExpectation> for Expected {
 
 impl From<&DepthExpectation> for Expected {
     fn from(e: &DepthExpectation) -> Self {
-        Self::Number { near: None, above: None, below: Some(e.below) }
+        Self::AtMost(e.below)
     }
 }
 

@@ -30,6 +30,14 @@ impl BodyNames {
         Self { single: single_names(scene), families: families.collect() }
     }
 
+    /// Reports a name that is neither that of a single body nor of a family.
+    pub fn check_any(&self, path: &ScenePath, name: &str, found: &mut Findings) {
+        if !self.single.contains(name) && !self.families.contains(name) {
+            let allowed: Vec<&str> = self.families.union(&self.single).map(String::as_str).collect();
+            found.unknown(path, "body", name, &allowed);
+        }
+    }
+
     /// Reports a name that is not that of a single body.
     pub fn check(&self, path: &ScenePath, name: &str, found: &mut Findings) {
         if self.single.contains(name) {
@@ -98,8 +106,8 @@ impl Checker<'_> {
             let path = path.field("ignores").index(index);
             if *other == body.name && body.repeat.is_none() {
                 found.error(&path, format!("\"{other}\" ignores itself"), "a body never collides with itself");
-            } else if !self.names.families.contains(other) {
-                self.names.check(&path, other, found);
+            } else {
+                self.names.check_any(&path, other, found);
             }
         }
     }

@@ -103,7 +103,7 @@ impl Checker<'_> {
     }
 
     fn body(&self, field: &str, name: &str, found: &mut Findings) {
-        self.bodies.check(&self.path.field(field), name, found);
+        self.bodies.check_any(&self.path.field(field), name, found);
     }
 
     /// Reports a time before the start or past the end.
@@ -215,9 +215,10 @@ impl Checker<'_> {
 
     fn event(&self, path: &ScenePath, event: &Event, found: &mut Findings) {
         let [a, b] = event.bodies();
-        self.bodies.check(&path.index(0), a, found);
-        self.bodies.check(&path.index(1), b, found);
-        if a == b {
+        self.bodies.check_any(&path.index(0), a, found);
+        self.bodies.check_any(&path.index(1), b, found);
+        // Copies of one repeated body do meet.
+        if a == b && !self.bodies.families.contains(a) {
             found.error(&path.index(1), "an event is between two bodies", format!("\"{a}\" on both sides"));
         }
     }

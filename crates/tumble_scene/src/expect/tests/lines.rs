@@ -43,8 +43,8 @@ fn each_outcome_is_one_line() {
     ok      EnergyNeverRises: 1e-7 J at 0.7 s, expected at most 1e-6
     FAILED  EnergyKept: 10.0000001 J at 0.7 s, expected 10 ± 1e-9
     ok      MomentumKept: (0, 0) kg·m/s at 0 s, expected (0, 0) ± 0.1
-    FAILED  Depth always: 0.0050000001 m at 0.8 s, expected below 0.005
-    FAILED  Depth at 0.8 s: 0.0050000001 m, expected below 0.005
+    FAILED  Depth always: 0.0050000001 m at 0.8 s, expected at most 0.005
+    FAILED  Depth at 0.8 s: 0.0050000001 m, expected at most 0.005
     FAILED  ContactForceSum on "box" by "floor" from 1 s: (3, 19.62) N, expected (0, 19.62) ± 0.01
     ok      FrictionForce on "box" at 1 s: 3 N, expected 3 ± 0.1 (μ m g)
     FAILED  Order of Touch("box", "floor"), Part("box", "floor"): 0.5 s, never, expected in this order

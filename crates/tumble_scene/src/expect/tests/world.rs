@@ -39,8 +39,8 @@ fn depth_is_the_deepest_of_the_window() {
     let mut recording = sampled_every(7);
     // Step 9 was not sampled, but audits are of every step.
     recording.audit[9].deepest_overlap = 0.02;
-    met(&recording, "Depth(below: 0.021, always: true)");
-    assert_measured(&failed(&recording, "Depth(below: 0.02)"), 0.02);
+    met(&recording, "Depth(below: 0.02, always: true)");
+    assert_measured(&failed(&recording, "Depth(below: 0.019)"), 0.02);
     failed(&recording, "Depth(below: 0.01, at: 0.9)");
     failed(&recording, "Depth(below: 0.01, from: 0.5, until: 0.9)");
     assert_measured(&met(&recording, "Depth(below: 0.01, at: 1.0)"), 0.0);
@@ -48,6 +48,14 @@ fn depth_is_the_deepest_of_the_window() {
     met(&recording, "Depth(below: 0.01, until: 0.8)");
     let between = failed(&recording, "Depth(below: 0.01, from: 0.81, until: 0.82)");
     assert_eq!(between.obstacle, Some(NotMeasured::EmptyWindow));
+}
+
+#[test]
+fn depth_of_zero_means_no_overlap_at_all() {
+    let mut recording = recording();
+    met(&recording, "Depth(below: 0)");
+    recording.audit[9].deepest_overlap = 1e-300;
+    failed(&recording, "Depth(below: 0)");
 }
 
 const ALL: [&str; 5] = [

@@ -1,0 +1,77 @@
+//! Claims about contact forces.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::format::ContactModel;
+
+/// Sum of the contact forces on a body, at a time or on average over a window. The force of a step is its impulse divided by dt.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ForceExpectation {
+    /// Name of the body; that of a repeated body claims it for every copy.
+    pub on: String,
+    /// Only forces by this body, or by any copy of a repeated one. Default by all.
+    #[serde(default)]
+    pub by: Option<String>,
+    /// When [s].
+    #[serde(default)]
+    pub at: Option<f64>,
+    /// Beginning of the window [s]. Default the start, if `until` is given.
+    #[serde(default)]
+    pub from: Option<f64>,
+    /// End of the window [s]. Default the end, if `from` is given.
+    #[serde(default)]
+    pub until: Option<f64>,
+    /// The force.
+    pub is: TargetForce,
+    /// Largest difference [N].
+    pub within: f64,
+    /// Why this must be so. Default empty.
+    #[serde(default)]
+    pub because: String,
+    /// Contact models for which it is claimed. Default all.
+    #[serde(default)]
+    pub under: Vec<ContactModel>,
+}
+
+/// What a sum of forces is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub enum TargetForce {
+    /// The force that carries the body: the opposite of gravity on it.
+    Weight,
+    /// A magnitude [N].
+    Newtons(f64),
+    /// Both components, world axes [N].
+    Vector(f64, f64),
+}
+
+/// Magnitude of the friction force on a body, at a time or on average over a window. The force of a step is its impulse divided by dt.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionExpectation {
+    /// Name of the body; that of a repeated body claims it for every copy.
+    pub on: String,
+    /// Only forces by this body, or by any copy of a repeated one. Default by all.
+    #[serde(default)]
+    pub by: Option<String>,
+    /// When [s].
+    #[serde(default)]
+    pub at: Option<f64>,
+    /// Beginning of the window [s]. Default the start, if `until` is given.
+    #[serde(default)]
+    pub from: Option<f64>,
+    /// End of the window [s]. Default the end, if `from` is given.
+    #[serde(default)]
+    pub until: Option<f64>,
+    /// Magnitude [N].
+    pub is: f64,
+    /// Largest difference [N].
+    pub within: f64,
+    /// Why this must be so. Default empty.
+    #[serde(default)]
+    pub because: String,
+    /// Contact models for which it is claimed. Default all.
+    #[serde(default)]
+    pub under: Vec<ContactModel>,
+}
