@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use tumble_math::Planar;
-use tumble_record::{Record, Recording};
-use tumble_scene::expect::{Verdict, evaluate};
+use tumble_record::{Record, Recording, Sampling};
+use tumble_scene::expect::{Verdict, evaluate, watched_steps};
 use tumble_scene::{FromScene, Loaded};
 use tumble_sim::{BodyTable, Simulation, StepError};
 
@@ -14,21 +14,21 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::source::Source;
 
-/// Steps that a run may have; with fewer, memory lasts and a slip in `dt` is told at once.
-const MOST_STEPS: f64 = 1e9;
+/// Steps that a run may have. The audit of each stays in memory, about 0.2 kB, so that this many need 20 GB; and a slip in `dt` is told at once.
+const MOST_STEPS: f64 = 1e8;
 
 /// A scene that was read and built, and is ready to run.
 pub struct Prepared {
     /// The scene, as overridden.
     pub loaded: Loaded,
-    /// Its simulation, before the first step; it records every step if something is expected, else every `every`-th.
+    /// Its simulation, before the first step; it records every `every`-th step, and those that expectations look at.
     pub simulation: Simulation<Planar>,
     /// Its name.
     pub name: String,
     /// Steps between two samples that are kept.
     pub every: u32,
-    /// Steps between two samples that are recorded.
-    recorded_every: u32,
+    /// Steps that are sampled.
+    sampling: Sampling,
     steps: u64,
 }
 
@@ -82,14 +82,13 @@ impl Prepared {
             );
             return Err(Failure::Arguments(message));
         }
-        let claims = scene.expect.iter().any(|expectation| expectation.is_claimed_under(scene.contact));
+        // So that `--every` changes no verdict.
+        let sampling = Sampling::every(every).and(watched_steps(scene, scene.contact));
         let built = |error| Failure::of_build(&label, error);
         let mut simulation = Simulation::from_loaded(&loaded).map_err(built)?;
-        // Expectations look at every step, so that `--every` changes no verdict.
-        let recorded_every = if claims { 1 } else { every };
-        simulation.record(recorded_every).map_err(|error| built(error.into()))?;
+        simulation.record_sampled(sampling.clone()).map_err(|error| built(error.into()))?;
         let name = source.stem().to_string_lossy().into_owned();
-        Ok(Self { loaded, simulation, name, every, recorded_every, steps: steps as u64 })
+        Ok(Self { loaded, simulation, name, every, sampling, steps: steps as u64 })
     }
 
     /// Takes all steps, or as many as possible.
@@ -117,7 +116,7 @@ impl Prepared {
         let steps = self.simulation.clock().step;
         let mut recording = self.simulation.take_recording().unwrap_or_default();
         // The present of a step that failed halfway is the state neither before nor after it.
-        if matches!(ending, Ending::Failed(_)) && !steps.is_multiple_of(u64::from(self.recorded_every)) {
+        if matches!(ending, Ending::Failed(_)) && !self.sampling.takes(steps) {
             recording.samples.pop();
         }
         recording.scene = self.name.clone();
