@@ -22,6 +22,7 @@
 use tumble_math::{Dim, Linear, Matrix, Vector};
 
 use crate::contact::tangential;
+use crate::joint::Joints;
 use crate::{ContactRow, Ending, Report, Slip, SolverBody};
 
 /// How long to sweep.
@@ -53,13 +54,39 @@ pub fn filter_velocities<D: Dim>(
     prepared: &mut Vec<PreparedRow<D>>,
     settings: &FilterSettings,
 ) -> Report {
+    filter(bodies, rows, &mut None, prepared, settings)
+}
+
+/// The same with joints, all of them as one block at the end of each sweep, so that they hold exactly whenever it ends.
+///
+/// Impulses of joint rows are a first guess on entry, like those of contacts.
+pub fn filter_velocities_and_joints<D: Dim>(
+    bodies: &mut [SolverBody<D>],
+    rows: &mut [ContactRow<D>],
+    joints: Joints<'_, D>,
+    prepared: &mut Vec<PreparedRow<D>>,
+    settings: &FilterSettings,
+) -> Report {
+    for row in joints.rows.iter() {
+        row.apply(bodies, row.impulse);
+    }
+    filter(bodies, rows, &mut Some(joints), prepared, settings)
+}
+
+fn filter<D: Dim>(
+    bodies: &mut [SolverBody<D>],
+    rows: &mut [ContactRow<D>],
+    joints: &mut Option<Joints<'_, D>>,
+    prepared: &mut Vec<PreparedRow<D>>,
+    settings: &FilterSettings,
+) -> Report {
     prepared.clear();
     prepared.extend(rows.iter().map(|row| prepare(row, bodies)));
     for row in rows.iter() {
         row.apply(bodies, row.impulse);
     }
 
-    let first = sweep_until_still(bodies, rows, prepared, settings);
+    let first = sweep_until_still(bodies, rows, joints, prepared, settings);
     let mut any_changed = false;
     for (row, prepared) in rows.iter_mut().zip(prepared.iter()) {
         let passed_through_rest = tangential(row.impulse).dot(prepared.friction_before) < 0.0;
@@ -73,7 +100,7 @@ pub fn filter_velocities<D: Dim>(
     }
     // The second stage begins near its answer.
     let again = FilterSettings { iterations: settings.iterations.div_ceil(2), ..*settings };
-    let second = any_changed.then(|| sweep_until_still(bodies, rows, prepared, &again));
+    let second = any_changed.then(|| sweep_until_still(bodies, rows, joints, prepared, &again));
     for row in rows.iter_mut().filter(|row| row.slip == Slip::Sliding) {
         if !slips(row, bodies, row.surface.kinetic_friction, settings.tolerance) {
             row.slip = Slip::Sticking;
@@ -105,10 +132,14 @@ fn slips<D: Dim>(row: &ContactRow<D>, bodies: &[SolverBody<D>], friction: f64, t
 fn sweep_until_still<D: Dim>(
     bodies: &mut [SolverBody<D>],
     rows: &mut [ContactRow<D>],
+    joints: &mut Option<Joints<'_, D>>,
     prepared: &[PreparedRow<D>],
     settings: &FilterSettings,
 ) -> Report {
     let mut report = Report::default();
+    if let Some(joints) = joints {
+        joints.block.stop(bodies, joints.rows);
+    }
     while report.iterations < settings.iterations {
         let backwards = report.iterations % 2 == 1;
         report.iterations += 1;
@@ -116,6 +147,9 @@ fn sweep_until_still<D: Dim>(
         for i in 0..rows.len() {
             let i = if backwards { rows.len() - 1 - i } else { i };
             report.residual = report.residual.max(solve_point(bodies, &mut rows[i], &prepared[i]));
+        }
+        if let Some(joints) = joints {
+            joints.block.stop(bodies, joints.rows);
         }
         if report.residual <= settings.tolerance {
             return report;

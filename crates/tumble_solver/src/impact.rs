@@ -20,6 +20,8 @@
 use tumble_math::{Dim, Linear, Matrix, Vector};
 
 use crate::contact::tangential;
+use crate::island::can_move;
+use crate::joint::{JointBlock, Joints};
 use crate::{ContactRow, Ending, Report, SolverBody, Surface};
 
 /// When to begin and when to give up.
@@ -61,6 +63,30 @@ pub fn resolve_one_by_one<D: Dim>(
     given: &mut Vec<D::Vector>,
     settings: &ImpactSettings,
 ) -> Report {
+    resolve(bodies, rows, approaches, given, &mut None, settings)
+}
+
+/// The same with joints: each impulse meets the compliance of its point with joints held, and they are held after it.
+pub fn resolve_one_by_one_with_joints<D: Dim>(
+    bodies: &mut [SolverBody<D>],
+    rows: &[ContactRow<D>],
+    approaches: &mut [Approach],
+    given: &mut Vec<D::Vector>,
+    joints: Joints<'_, D>,
+    settings: &ImpactSettings,
+) -> Report {
+    joints.block.stop(bodies, joints.rows);
+    resolve(bodies, rows, approaches, given, &mut Some(joints), settings)
+}
+
+fn resolve<D: Dim>(
+    bodies: &mut [SolverBody<D>],
+    rows: &[ContactRow<D>],
+    approaches: &mut [Approach],
+    given: &mut Vec<D::Vector>,
+    joints: &mut Option<Joints<'_, D>>,
+    settings: &ImpactSettings,
+) -> Report {
     given.clear();
     given.resize(rows.len(), D::Vector::ZERO);
     let mut report = Report::default();
@@ -74,7 +100,9 @@ pub fn resolve_one_by_one<D: Dim>(
 
     let cap = (rows.len() as u64 * u64::from(settings.impulses_per_contact)).min(u64::from(u32::MAX)) as u32;
     let mut order = Order::of(bodies, rows);
-    while let Some(worst) = order.next(|i| excess(bodies, i, &approaches[i])) {
+    while let Some(worst) =
+        order.next(joints.as_ref().map(|joints| &*joints.block), |i| excess(bodies, i, &approaches[i]))
+    {
         if report.iterations == cap {
             report.ending = Ending::NotConverged;
             break;
@@ -83,8 +111,15 @@ pub fn resolve_one_by_one<D: Dim>(
         let row = &rows[worst];
         let velocity = row.relative_velocity(bodies);
         let rebound = rebound_speed(-velocity[0], row.surface.restitution, &mut approaches[worst]);
-        let impulse = impulse_for(&row.compliance(bodies), velocity, rebound, &row.surface);
+        let compliance = match joints {
+            Some(joints) => joints.block.compliance(joints.rows, row),
+            None => row.compliance(bodies),
+        };
+        let impulse = impulse_for(&compliance, velocity, rebound, &row.surface);
         row.apply(bodies, impulse);
+        if let Some(joints) = joints {
+            joints.block.stop_near([row.a, row.b], bodies, joints.rows);
+        }
         given[worst] += impulse;
     }
     let left = |(row, approach): (&ContactRow<D>, &Approach)| {
@@ -178,14 +213,14 @@ impl Order {
     }
 
     /// The next colliding point; of equals, the first. `excess` is by how much a point is colliding now, 0 if it is not.
-    fn next(&mut self, excess: impl Fn(usize) -> f64) -> Option<usize> {
+    fn next<D: Dim>(&mut self, joints: Option<&JointBlock<D>>, excess: impl Fn(usize) -> f64) -> Option<usize> {
         match &mut self.method {
             Method::WorstFirst { excesses, last } => {
                 match last {
                     Some(last) => {
-                        for &i in self.neighbours.of_bodies(self.ends[*last]) {
+                        self.neighbours.for_each_stirred(self.ends[*last], joints, |i| {
                             excesses[i as usize] = excess(i as usize);
-                        }
+                        });
                     }
                     None => excesses.extend((0..self.ends.len()).map(excess)),
                 }
@@ -202,11 +237,11 @@ impl Order {
                 while let Some(&(_, i)) = round.get(*next) {
                     *next += 1;
                     if excess(i as usize) > 0.0 {
-                        for &neighbour in self.neighbours.of_bodies(self.ends[i as usize]) {
+                        self.neighbours.for_each_stirred(self.ends[i as usize], joints, |neighbour| {
                             if !std::mem::replace(&mut is_stirred[neighbour as usize], true) {
                                 stirred.push(neighbour);
                             }
-                        }
+                        });
                         return Some(i as usize);
                     }
                 }
@@ -236,10 +271,7 @@ struct Neighbours {
 
 impl Neighbours {
     fn of<D: Dim>(bodies: &[SolverBody<D>], rows: &[ContactRow<D>]) -> Self {
-        let movable = |body: u32| {
-            let body = &bodies[body as usize];
-            body.inverse_mass != D::Vector::ZERO || body.inverse_inertia != D::Inertia::default()
-        };
+        let movable = |body: u32| can_move(&bodies[body as usize]);
         let ends = |row: &ContactRow<D>| [row.a, row.b].into_iter().filter(|body| movable(*body));
         let mut starts = vec![0_u32; bodies.len() + 1];
         for body in rows.iter().flat_map(ends) {
@@ -259,9 +291,13 @@ impl Neighbours {
         Self { starts, rows: sorted }
     }
 
-    /// Rows at either body; a row between both comes twice, which costs a look and changes nothing.
-    fn of_bodies(&self, [a, b]: [u32; 2]) -> impl Iterator<Item = &u32> {
-        let of = |body: u32| &self.rows[self.starts[body as usize] as usize..self.starts[body as usize + 1] as usize];
-        of(a).iter().chain(of(b))
+    /// Calls with every row that an impulse between two bodies changes: those at either body, and at bodies joined to them. A row may come
+    /// twice, which costs a look and changes nothing.
+    fn for_each_stirred<D: Dim>(&self, ends: [u32; 2], joints: Option<&JointBlock<D>>, mut stirred: impl FnMut(u32)) {
+        let at = |body: u32| &self.rows[self.starts[body as usize] as usize..self.starts[body as usize + 1] as usize];
+        match joints {
+            Some(joints) => joints.reached_by(ends).for_each(|body| at(body).iter().for_each(|row| stirred(*row))),
+            None => ends.iter().for_each(|body| at(*body).iter().for_each(|row| stirred(*row))),
+        }
     }
 }

@@ -154,7 +154,7 @@ pub struct VelocityLcp<D: Dim> {
 impl<D: Dim> VelocityLcp<D> {
     /// Filters the velocities of `bodies` through touching contacts and joints; `rows[i].impulse` and `slip` are updated.
     ///
-    /// On entry `rows[i].impulse` is a first guess, which the velocities do not contain.
+    /// On entry `rows[i].impulse` is a first guess, which the velocities do not contain. Joint rows need none; theirs is set.
     pub fn filter(
         &mut self,
         bodies: &mut [SolverBody<D>],
@@ -162,6 +162,9 @@ impl<D: Dim> VelocityLcp<D> {
         mut joints: Option<Joints<'_, D>>,
         settings: &VelocitySettings,
     ) -> VelocityReport {
+        if let Some(joints) = &mut joints {
+            joints.rows.iter_mut().for_each(|row| row.impulse = 0.0);
+        }
         self.begin(bodies, rows, &mut joints);
         for (i, row) in rows.iter().enumerate() {
             self.problem.q[i][0] += row.allowance;
@@ -191,7 +194,7 @@ impl<D: Dim> VelocityLcp<D> {
 
     /// Answers all impacts at once; `given[i]` is set to the impulse at contact i, in its frame [N·s].
     ///
-    /// Of two islands, one that has a contact approaching faster than [`VelocitySettings::colliding_above`] is answered as a whole, its
+    /// Impulses of joint rows are added to. Of two islands, one that has a contact approaching faster than [`VelocitySettings::colliding_above`] is answered as a whole, its
     /// resting contacts too; the other is left alone.
     pub fn impact(
         &mut self,

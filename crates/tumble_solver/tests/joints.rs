@@ -1,31 +1,18 @@
 //! Joints on plain slices: their rows against finite differences, and the block against mechanics.
 
+mod common;
+
+use common::{Body, FLOOR, body, kinetic_energy, on_floor, surface};
 use glam::{DVec2, dvec2};
 use proptest::prelude::*;
 use tumble_math::{Dim, Planar};
-use tumble_solver::joint::{JointBlock, JointEnds, JointError, JointRow, distance, fixed, prismatic, revolute};
-use tumble_solver::{ContactRow, Slip, SolverBody, Surface};
+use tumble_solver::filter::{FilterSettings, filter_velocities_and_joints};
+use tumble_solver::impact::{Approach, ImpactSettings, resolve_one_by_one_with_joints};
+use tumble_solver::joint::{JointBlock, JointEnds, JointError, JointRow, Joints, distance, fixed, prismatic, revolute};
+use tumble_solver::velocity_lcp::{Rebound, VelocityLcp, VelocitySettings};
+use tumble_solver::{ContactRow, Ending, Slip, Surface};
 
-type Body = SolverBody<Planar>;
 type Row = JointRow<Planar>;
-
-const FLOOR: Body =
-    Body { velocity: DVec2::ZERO, angular_velocity: 0.0, inverse_mass: DVec2::ZERO, inverse_inertia: 0.0 };
-
-fn body(mass: f64, inertia: f64) -> Body {
-    Body { inverse_mass: DVec2::splat(1.0 / mass), inverse_inertia: 1.0 / inertia, ..FLOOR }
-}
-
-/// ½ m v² + ½ I ω² of all bodies that can move [J].
-fn kinetic_energy(bodies: &[Body]) -> f64 {
-    let of = |body: &Body| {
-        let linear = if body.inverse_mass.x > 0.0 { body.velocity.length_squared() / body.inverse_mass.x } else { 0.0 };
-        let angular =
-            if body.inverse_inertia > 0.0 { body.angular_velocity.powi(2) / body.inverse_inertia } else { 0.0 };
-        0.5 * (linear + angular)
-    };
-    bodies.iter().map(of).sum()
-}
 
 fn turned(v: DVec2, angle: f64) -> DVec2 {
     let (sine, cosine) = tumble_math::trig::sin_cos(angle);
@@ -285,4 +272,82 @@ fn distance_joint_without_a_direction_is_refused() {
     let bad = distance::push_rows(&ends, f64::NAN, &bodies, &mut rows);
     assert_eq!(bad, Err(JointError::BadParameter { a: 0, b: 1, quantity: "length" }));
     assert!(rows.is_empty());
+}
+
+/// A rod of length 1 and mass 3 pinned at the origin, lying along x, and a point of it on the floor at a distance from the pin.
+fn pinned_rod_on_floor(at: f64, turning: f64) -> ([Body; 2], Vec<Row>, [ContactRow<Planar>; 1]) {
+    let velocity = dvec2(0.0, 0.5 * turning);
+    let bodies = [FLOOR, Body { velocity, angular_velocity: turning, ..body(3.0, 0.25) }];
+    let mut rows = Vec::new();
+    let pin = JointEnds::at((0, DVec2::ZERO, DVec2::ZERO), (1, dvec2(0.5, 0.0), dvec2(-0.5, 0.0)));
+    revolute::push_rows(&pin, &bodies, &mut rows);
+    (bodies, rows, [on_floor(1, dvec2(at - 0.5, 0.0), surface(0.4, 0.5))])
+}
+
+#[test]
+fn impact_of_a_pinned_rod_is_that_of_a_body_turning_about_its_pin() {
+    // j = (1 + ε) |ω| I_pin / r, with I_pin = m L²/3 = 1; the pin's impulse is what moves the centre besides.
+    for at in [0.4, 2.0 / 3.0, 1.0] {
+        let exact = 1.5 * 2.0 / at;
+        let pin_impulse = 3.0 * 0.5 * (1.0 + 2.0) - exact;
+        let one_by_one = |bodies: &mut [Body], contacts: &[ContactRow<Planar>], joints: Joints<'_, Planar>| {
+            let mut given = Vec::new();
+            let settings = ImpactSettings { colliding_above: 1e-9, impulses_per_contact: 10 };
+            let approaches = &mut [Approach::default()];
+            resolve_one_by_one_with_joints(bodies, contacts, approaches, &mut given, joints, &settings);
+            given[0].x
+        };
+        let at_once = |bodies: &mut [Body], contacts: &[ContactRow<Planar>], joints: Joints<'_, Planar>| {
+            let mut given = Vec::new();
+            let rebounds = [Rebound { restitution: 0.5, speed: 0.0 }];
+            let settings = VelocitySettings::default();
+            VelocityLcp::default().impact(bodies, contacts, &rebounds, &mut given, Some(joints), &settings);
+            given[0].x
+        };
+        type Solver<'a> = &'a dyn Fn(&mut [Body], &[ContactRow<Planar>], Joints<'_, Planar>) -> f64;
+        for solve in [&one_by_one as Solver, &at_once] {
+            let (mut bodies, mut rows, contacts) = pinned_rod_on_floor(at, -2.0);
+            let mut block = JointBlock::default();
+            block.prepare(&bodies, &rows);
+            let impulse = solve(&mut bodies, &contacts, Joints { block: &mut block, rows: &mut rows });
+            // Exact but for rounding.
+            assert!((impulse - exact).abs() < 1e-14, "{at}: {impulse}");
+            assert!((bodies[1].angular_velocity - 1.0).abs() < 1e-14);
+            assert!((rows[1].impulse - pin_impulse).abs() < 1e-14, "{at}: {}", rows[1].impulse);
+        }
+    }
+}
+
+#[test]
+fn filters_hold_a_pinned_rod_on_its_prop_and_agree() {
+    // One step of gravity, 9.81e-3 m/s: the prop at 3/4 takes 2/3 of the weight, the pin the rest.
+    let pull = 9.81e-3;
+    let (bodies, rows, contacts) = pinned_rod_on_floor(0.75, 0.0);
+    let fallen = [FLOOR, Body { velocity: dvec2(0.0, -pull), ..bodies[1] }];
+    let mut block = JointBlock::default();
+    block.prepare(&bodies, &rows);
+    let check = |bodies: [Body; 2], contact: &ContactRow<Planar>, rows: &[Row], tolerance: f64| {
+        assert!((contact.impulse.x - 3.0 * pull * 2.0 / 3.0).abs() < tolerance, "{}", contact.impulse.x);
+        assert!((rows[1].impulse - 3.0 * pull / 3.0).abs() < tolerance, "{}", rows[1].impulse);
+        assert!(bodies[1].velocity.length() < tolerance && bodies[1].angular_velocity.abs() < tolerance);
+    };
+
+    let (mut exact, mut exact_contacts, mut exact_rows) = (fallen, contacts, rows.clone());
+    let joints = Joints { block: &mut block, rows: &mut exact_rows };
+    VelocityLcp::default().filter(&mut exact, &mut exact_contacts, Some(joints), &VelocitySettings::default());
+    check(exact, &exact_contacts[0], &exact_rows, 1e-16);
+
+    let (mut swept, mut swept_contacts, mut swept_rows) = (fallen, contacts, rows);
+    let settings = FilterSettings { iterations: 500, tolerance: 1e-13 };
+    let joints = Joints { block: &mut block, rows: &mut swept_rows };
+    let report = filter_velocities_and_joints(&mut swept, &mut swept_contacts, joints, &mut Vec::new(), &settings);
+    assert_eq!(report.ending, Ending::Converged);
+    // The sweeps' tolerance over their rate of convergence.
+    check(swept, &swept_contacts[0], &swept_rows, 1e-11);
+
+    // From its own answer it needs one sweep.
+    let mut again = fallen;
+    let joints = Joints { block: &mut block, rows: &mut swept_rows };
+    let report = filter_velocities_and_joints(&mut again, &mut swept_contacts, joints, &mut Vec::new(), &settings);
+    assert_eq!(report.iterations, 1);
 }

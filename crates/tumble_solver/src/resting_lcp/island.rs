@@ -295,11 +295,10 @@ fn is_clearly_positive(mut m: Vec<Vec<f64>>) -> bool {
         if m[k][k] == 0.0 {
             return false;
         }
-        for i in k + 1..n {
-            let factor = m[i][k] / m[k][k];
-            for j in k..n {
-                m[i][j] -= factor * m[k][j];
-            }
+        let (done, left) = m.split_at_mut(k + 1);
+        for row in left {
+            let factor = row[k] / done[k][k];
+            row.iter_mut().zip(&done[k]).skip(k).for_each(|(entry, above)| *entry -= factor * above);
         }
     }
     determinant > 1e-12 * scale
