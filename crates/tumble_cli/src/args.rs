@@ -32,7 +32,7 @@ pub enum Command {
     Run(RunArguments),
     /// List the scenes that come with the program
     Scenes,
-    /// Look for mistakes and print the mass of every body, without running anything
+    /// Look for mistakes and print masses and friction, without running anything
     Check(CheckArguments),
     /// Run scenes and tell which of their expectations hold
     Test(TestArguments),
@@ -56,7 +56,7 @@ pub struct RunArguments {
     pub overrides: Overrides,
     /// Write the trajectory and the contacts of every N-th step only; the first and the last are always there
     ///
-    /// Sums (audit.csv) and expectations look at every step all the same.
+    /// Sums (audit.csv) are of every step and expectations look at the steps they need all the same.
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
     pub every: Option<u32>,
     /// Draw a quantity over time, such as `total` or `y:ball`; may be repeated

@@ -74,7 +74,7 @@ function normalImpulse(sample) {
   return sum;
 }
 
-/** The force that most contacts stay below: the middle of the upper half of all of them. */
+/** The force below which half of all impulse is given: many tiny ones count little, and one great one not for all. */
 function typicalForce() {
   const { contact_numbers: numbers, dt } = recording;
   const count = numbers.length / 6, stride = Math.max(1, Math.floor(count / 20000));
@@ -84,7 +84,8 @@ function typicalForce() {
     if (force > 0 && isFinite(force)) forces.push(force);
   }
   forces.sort((a, b) => a - b);
-  return forces[Math.floor(0.75 * forces.length)] ?? 1;
+  let rest = forces.reduce((sum, force) => sum + force, 0) / 2;
+  return forces.find((force) => (rest -= force) <= 0) ?? 1;
 }
 
 /** The nearest of 1, 2, 5 times a power of ten that is not above `value`. */
