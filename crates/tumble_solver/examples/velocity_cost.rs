@@ -14,7 +14,7 @@ use tumble_solver::velocity_lcp::{VelocityLcp, VelocitySettings, VelocitySolver}
 
 fn main() {
     println!(
-        "scene, contacts, method: cold µs, warm µs, residual [m/s], method counts (pivoted, swept, newton), iterations warm"
+        "scene, contacts, method: cold µs, warm µs, residual [m/s], islands (known, pivoted, swept, newton), iterations warm"
     );
     let scenes: [(&str, (Vec<Body>, Vec<Row>)); 7] = [
         ("box on floor", stack(1, surface(0.6, 0.0))),
@@ -66,7 +66,7 @@ fn measure(name: &str, bodies: &[Body], rows: &[Row], solver: VelocitySolver) {
         report = model.filter(&mut pulled(bodies), &mut solved, None, &settings);
     }
     let warm = start.elapsed().as_secs_f64() / f64::from(count);
-    let counts = (report.pivoted, report.swept, report.newton);
+    let counts = (report.known, report.pivoted, report.swept, report.newton);
     println!(
         "{name}, {}, {solver:?}: {:.1}, {:.1}, {:.1e}, {counts:?}, {}",
         rows.len(),

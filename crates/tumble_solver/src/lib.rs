@@ -7,7 +7,10 @@
 //! |---|---|---|---|
 //! | [`penalty`] | spring and damper per point | – | – |
 //! | one-by-one impulse | – | [`filter`]: touching contacts, accumulated impulses | [`impact`]: colliding contacts, worst first, repeatedly |
+//! | [`resting_lcp`] | normal acceleration ≥ 0, after all other forces | leftover velocity of points at rest | one by one |
+//! | [`velocity_lcp`] | – | all contacts of an island at once | all at once, by Poisson's or Newton's law |
 //!
+//! [`joint`] holds joints beside them, as rows that are solved in one block. [`island`] finds what has to be solved together.
 //! [`position`] is the position filter of the impulse model: no gap closes beyond touch within a step.
 
 pub mod body;

@@ -47,14 +47,14 @@ pub(super) fn pivot<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], w: &Dens
 }
 
 /// Solves an island by Newton's method on the friction cones; returns the steps, or `None` without a solution.
-pub(super) fn newton<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], w: Dense) -> Option<usize> {
+pub(super) fn newton<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], w: &Dense) -> Option<usize> {
     if contacts.iter().any(|i| problem.held[*i as usize] > 0.0) {
         return None;
     }
     let space = if D::Vector::AXES == 2 { ContactSpace::Planar } else { ContactSpace::Spatial };
     let (q, guess) = flat(problem, contacts);
     let coefficients = contacts.iter().map(|i| problem.friction[*i as usize]).collect();
-    let cones = FrictionProblem::new(w, q, coefficients, space).ok()?;
+    let cones = FrictionProblem::new(w.clone(), q, coefficients, space).ok()?;
     let solution = ConeNewton::default().solve_from(&cones, &guess).ok()?;
     put(problem, contacts, &solution.impulses);
     Some(solution.report.iterations)

@@ -1,5 +1,6 @@
 //! One island solved: which method, what if it fails, and friction in two stages.
 
+use tumble_lcp::Matrix as Dense;
 use tumble_math::{Dim, Linear, Vector};
 
 use super::problem::Problem;
@@ -8,11 +9,20 @@ use crate::contact::tangential;
 use crate::least_norm::{Freedom, make_smallest};
 use crate::{Ending, Slip, Surface};
 
-/// Up to this many rows pivoting is quicker than sweeping; beyond, its cost grows with their cube.
-const PIVOT_UP_TO_ROWS: usize = 120;
+/// Up to this many rows pivoting is about as quick as Newton's method, and surer.
+const PIVOT_UP_TO_ROWS: usize = 12;
 
-/// Up to this many rows a Newton step is worth its factorization where sweeps have not come to rest.
-const NEWTON_UP_TO_ROWS: usize = 400;
+/// Up to this many rows a Newton step, whose cost grows with their cube, is quicker than the sweeps that it saves.
+const NEWTON_UP_TO_ROWS: usize = 120;
+
+/// Up to this many rows it is worth a try where sweeps have not come to rest.
+const NEWTON_AFTER_SWEEPS_UP_TO_ROWS: usize = 400;
+
+/// A first guess counts as the answer only when it is as exact as an answer, which is far better than the tolerance asks [1].
+const KNOWN_WITHIN: f64 = 1e-4;
+
+/// Up to this many contacts indeterminate shares are brought to their least norm, whose cost grows with their cube.
+const SMALLEST_UP_TO: usize = 24;
 
 /// Solves an island with μ_s where contacts stick and μ_k where they slide.
 ///
@@ -87,6 +97,9 @@ struct IslandEnd {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Method {
+    /// The impulses that were there solve it.
+    FirstGuess,
+    /// Or the closed form of a single contact.
     Pivoting,
     Sweeps,
     Newton,
@@ -98,6 +111,7 @@ impl IslandEnd {
         report.iterations += self.iterations as u32;
         report.residual = report.residual.max(self.residual);
         match self.method {
+            Method::FirstGuess => report.known += 1,
             Method::Pivoting => report.pivoted += 1,
             Method::Sweeps => report.swept += 1,
             Method::Newton => report.newton += 1,
@@ -113,70 +127,96 @@ impl IslandEnd {
 fn solve<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], settings: &VelocitySettings) -> IslandEnd {
     let size = contacts.iter().map(|i| problem.q[*i as usize].length()).fold(0.0, f64::max);
     let bar = settings.tolerance * size.max(1.0);
-    let rows = contacts.len() * D::Vector::AXES;
-    let pivots_first = match settings.solver {
-        VelocitySolver::Pivoting => true,
-        VelocitySolver::Auto => rows <= PIVOT_UP_TO_ROWS && D::Vector::AXES == 2,
-        VelocitySolver::BlockGaussSeidel | VelocitySolver::Newton => false,
-    };
-    let sweeps_first = match settings.solver {
-        VelocitySolver::BlockGaussSeidel => true,
-        VelocitySolver::Auto => !pivots_first,
-        VelocitySolver::Pivoting | VelocitySolver::Newton => false,
-    };
-    if contacts.len() == 1 && settings.solver != VelocitySolver::Newton {
+    if contacts.len() == 1 {
         let contact = contacts[0] as usize;
         problem.impulses[contact] = D::Vector::ZERO;
         problem.impulses[contact] = problem.solve_alone(contact);
-        return ended(problem, contacts, Method::Pivoting, 1, bar, false);
+        return ended(problem, contacts, Method::Pivoting, 0, bar);
+    }
+    let known = ended(problem, contacts, Method::FirstGuess, 0, KNOWN_WITHIN * bar);
+    if known.ending == Ending::Converged {
+        return known;
     }
 
-    let start: Vec<D::Vector> = contacts.iter().map(|i| problem.impulses[*i as usize]).collect();
-    let restore = |problem: &mut Problem<D>, impulses: &[D::Vector]| {
-        contacts.iter().zip(impulses).for_each(|(i, impulse)| problem.impulses[*i as usize] = *impulse);
-    };
+    let start = present(problem, contacts);
     let mut iterations = 0;
-    if sweeps_first {
-        iterations = sweep::sweep(problem, contacts, bar, settings.sweeps) as usize;
-        let end = ended(problem, contacts, Method::Sweeps, iterations, bar, false);
-        if end.ending == Ending::Converged
-            || settings.solver == VelocitySolver::BlockGaussSeidel
-            || rows > NEWTON_UP_TO_ROWS
-        {
-            return end;
-        }
-    }
-    let w = problem.coupling.dense(contacts);
-    if pivots_first && let Some(pivots) = pivot::pivot(problem, contacts, &w, bar) {
-        let end = ended(problem, contacts, Method::Pivoting, pivots, bar, false);
-        if end.ending == Ending::Converged {
-            let vertex: Vec<D::Vector> = contacts.iter().map(|i| problem.impulses[*i as usize]).collect();
-            let mut smallest = vertex.clone();
-            let mut freedoms: Vec<_> = contacts.iter().map(|i| freedom(problem, *i as usize, bar)).collect();
-            let friction: Vec<f64> = contacts.iter().map(|i| problem.friction[*i as usize]).collect();
-            make_smallest::<D>(&mut smallest, &mut freedoms, &friction, &w);
-            restore(problem, &smallest);
-            let smallest = ended(problem, contacts, Method::Pivoting, pivots, bar, false);
-            if smallest.ending == Ending::Converged {
-                return smallest;
+    let mut matrix = None;
+    for (turn, method) in methods::<D>(settings.solver, contacts.len()).iter().copied().enumerate() {
+        let done = match method {
+            Method::Sweeps | Method::FirstGuess => Some(sweep::sweep(problem, contacts, bar, settings.sweeps) as usize),
+            Method::Pivoting | Method::Newton => {
+                let w = matrix.get_or_insert_with(|| problem.coupling.dense(contacts));
+                if method == Method::Pivoting {
+                    pivot::pivot(problem, contacts, w, bar)
+                } else {
+                    pivot::newton(problem, contacts, w)
+                }
             }
-            restore(problem, &vertex);
-            return end;
+        };
+        iterations += done.unwrap_or(0);
+        let end = IslandEnd { fell_back: turn > 0, ..ended(problem, contacts, method, iterations, bar) };
+        if done.is_some() && end.ending == Ending::Converged {
+            return match &matrix {
+                Some(w) if contacts.len() <= SMALLEST_UP_TO => take_smallest(problem, contacts, w, end, bar),
+                _ => end,
+            };
         }
-        restore(problem, &start);
-    }
-    if let Some(steps) = pivot::newton(problem, contacts, w) {
-        let fell_back = settings.solver != VelocitySolver::Newton;
-        let end = ended(problem, contacts, Method::Newton, iterations + steps, bar, fell_back);
-        if end.ending == Ending::Converged {
-            return end;
+        // Newton's method goes on from where sweeps end; any other begins afresh.
+        if method != Method::Sweeps {
+            restore(problem, contacts, &start);
         }
     }
-    if !sweeps_first {
-        restore(problem, &start);
-        iterations = sweep::sweep(problem, contacts, bar, settings.sweeps.max(LAST_RESORT_SWEEPS)) as usize;
+    // Sweeps always leave something usable.
+    if matrix.is_some() {
+        iterations += sweep::sweep(problem, contacts, bar, settings.sweeps.max(LAST_RESORT_SWEEPS)) as usize;
+        return IslandEnd { fell_back: true, ..ended(problem, contacts, Method::Sweeps, iterations, bar) };
     }
-    ended(problem, contacts, Method::Sweeps, iterations, bar, true)
+    ended(problem, contacts, Method::Sweeps, iterations, bar)
+}
+
+/// The methods to try, in this order.
+fn methods<D: Dim>(solver: VelocitySolver, contacts: usize) -> &'static [Method] {
+    let rows = contacts * D::Vector::AXES;
+    match solver {
+        VelocitySolver::Pivoting => &[Method::Pivoting, Method::Newton],
+        VelocitySolver::BlockGaussSeidel => &[Method::Sweeps],
+        VelocitySolver::Newton => &[Method::Newton],
+        VelocitySolver::Auto if rows <= PIVOT_UP_TO_ROWS => &[Method::Pivoting, Method::Newton],
+        VelocitySolver::Auto if rows <= NEWTON_UP_TO_ROWS => &[Method::Newton, Method::Pivoting],
+        VelocitySolver::Auto if rows <= NEWTON_AFTER_SWEEPS_UP_TO_ROWS => &[Method::Sweeps, Method::Newton],
+        VelocitySolver::Auto => &[Method::Sweeps],
+    }
+}
+
+/// Of all impulses with the same velocities, takes the smallest.
+fn take_smallest<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], w: &Dense, end: IslandEnd, bar: f64) -> IslandEnd {
+    // What Poisson's law gives back has its shares from the compression.
+    if contacts.iter().any(|i| problem.held[*i as usize] > 0.0) {
+        return end;
+    }
+    let solved = present(problem, contacts);
+    let mut smallest = solved.clone();
+    let mut freedoms: Vec<_> = contacts.iter().map(|i| freedom(problem, *i as usize, bar)).collect();
+    let friction: Vec<f64> = contacts.iter().map(|i| problem.friction[*i as usize]).collect();
+    make_smallest::<D>(&mut smallest, &mut freedoms, &friction, w);
+    if smallest == solved {
+        return end;
+    }
+    restore(problem, contacts, &smallest);
+    let better = IslandEnd { fell_back: end.fell_back, ..ended(problem, contacts, end.method, end.iterations, bar) };
+    if better.ending == Ending::Converged {
+        return better;
+    }
+    restore(problem, contacts, &solved);
+    end
+}
+
+fn present<D: Dim>(problem: &Problem<D>, contacts: &[u32]) -> Vec<D::Vector> {
+    contacts.iter().map(|i| problem.impulses[*i as usize]).collect()
+}
+
+fn restore<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], impulses: &[D::Vector]) {
+    contacts.iter().zip(impulses).for_each(|(i, impulse)| problem.impulses[*i as usize] = *impulse);
 }
 
 /// What a solved contact may still do without a change of velocities.
@@ -203,18 +243,11 @@ fn freedom<D: Dim>(problem: &Problem<D>, contact: usize, tolerance: f64) -> Free
 const LAST_RESORT_SWEEPS: u32 = 2000;
 
 /// Ends with impulses within their bounds, whatever the error that leaves.
-fn ended<D: Dim>(
-    problem: &mut Problem<D>,
-    contacts: &[u32],
-    method: Method,
-    iterations: usize,
-    bar: f64,
-    fell_back: bool,
-) -> IslandEnd {
+fn ended<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], method: Method, iterations: usize, bar: f64) -> IslandEnd {
     contacts.iter().for_each(|i| problem.clamp(*i as usize));
     let residual = problem.residual(contacts);
     // The last change of a sweep is less than the error that is left.
     let met = residual <= 10.0 * bar;
     let ending = if met { Ending::Converged } else { Ending::NotConverged };
-    IslandEnd { method, iterations, residual, ending, fell_back }
+    IslandEnd { method, iterations, residual, ending, fell_back: false }
 }
