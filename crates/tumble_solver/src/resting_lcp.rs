@@ -115,7 +115,7 @@ impl<D: Dim> RestingLcp<D> {
     /// Finds the force at each point, in its contact frame, on b [N], and adds what contacts and joints do to `accelerations`.
     ///
     /// `rows` are the points at rest: touching, with no speed along the normal; their `slip` is updated. `gaps` say how their
-    /// normals turn. Joints must have been stopped, with the drift of the present velocities in their rows.
+    /// normals turn. Forces of the step before, if they are as many, are the first guess. Joints must have been stopped, with the drift of the present velocities in their rows.
     pub fn solve(
         &mut self,
         bodies: &[SolverBody<D>],
@@ -127,7 +127,9 @@ impl<D: Dim> RestingLcp<D> {
         settings: &RestingSettings,
     ) -> RestingReport {
         self.begin(bodies, accelerations, rows, gaps, &mut joints);
-        forces.clear();
+        if forces.len() != rows.len() || forces.iter().any(|force| !force.is_finite()) {
+            forces.clear();
+        }
         forces.resize(rows.len(), D::Vector::ZERO);
         self.unsolved.clear();
         let mut report = RestingReport::default();
@@ -139,7 +141,8 @@ impl<D: Dim> RestingLcp<D> {
                 continue;
             }
             let points = contacts.iter().map(|i| self.point(&rows[*i as usize], bodies, *i, settings)).collect();
-            let solved = island::solve::<D>(&self.coupling.dense(&contacts), points, settings.tolerance);
+            let guess: Vec<D::Vector> = contacts.iter().map(|i| forces[*i as usize]).collect();
+            let solved = island::solve::<D>(&self.coupling.dense(&contacts), points, &guess, settings.tolerance);
             report.islands += 1;
             report.iterations += solved.iterations as u32;
             report.residual = report.residual.max(solved.residual);
@@ -160,6 +163,9 @@ impl<D: Dim> RestingLcp<D> {
                 }
             }
         }
+        self.islands.idle().iter().filter(|i| (**i as usize) < rows.len()).for_each(|i| {
+            forces[*i as usize] = D::Vector::ZERO;
+        });
         self.end(accelerations, rows, forces, &mut joints);
         report
     }

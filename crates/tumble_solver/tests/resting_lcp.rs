@@ -274,3 +274,29 @@ fn pinned_rod_leans_on_a_prop_with_the_force_that_its_moment_says() {
     assert!((model.joint_forces()[1] - weight * (1.0 - 0.5 / 0.75)).abs() < 10.0 * EXACT, "{:?}", model.joint_forces());
     assert!(accelerations[1].linear.length() < EXACT && accelerations[1].angular.abs() < EXACT);
 }
+
+#[test]
+fn forces_of_the_step_before_are_a_guess_and_no_more() {
+    let (bodies, rows) = stack(4, surface(0.5, 0.0));
+    let gaps: Vec<Gap<Planar>> = rows.iter().map(|row| Gap::corner(row, NormalCarrier::A)).collect();
+    let solve = |forces: &mut Vec<DVec2>| {
+        let falls = Acceleration { linear: dvec2(0.0, -GRAVITY), angular: 0.0 };
+        let mut accelerations = vec![falls; bodies.len()];
+        accelerations[0] = Acceleration::default();
+        let settings = RestingSettings::default();
+        let mut rows = rows.clone();
+        RestingLcp::default().solve(&bodies, &mut accelerations, &mut rows, &gaps, forces, None, &settings)
+    };
+    let mut forces = Vec::new();
+    assert!(solve(&mut forces).iterations > 0);
+    let known = forces.clone();
+    // Its own answer costs no pivots and does not change.
+    assert_eq!(solve(&mut forces).iterations, 0);
+    assert_eq!(forces, known);
+    for wrong in [vec![dvec2(7.0, -9.0); known.len()], vec![DVec2::NAN; known.len()], vec![DVec2::ONE; 3]] {
+        forces.clone_from(&wrong);
+        solve(&mut forces);
+        // Forces up to 40 N, to rounding.
+        assert!(forces.iter().zip(&known).all(|(a, b)| (*a - *b).length() < 1e-11), "{wrong:?}: {forces:?}");
+    }
+}
