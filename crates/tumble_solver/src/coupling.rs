@@ -21,6 +21,8 @@ pub(crate) struct Coupling<D: Dim> {
     blocks: Vec<D::Matrix>,
     /// W_ii.
     own: Vec<D::Matrix>,
+    /// W_ii⁻¹; zero where it is singular.
+    own_inverse: Vec<D::Matrix>,
     /// Contacts at each body, as `starts` and `others`.
     body_starts: Vec<u32>,
     at_body: Vec<u32>,
@@ -42,6 +44,7 @@ impl<D: Dim> Coupling<D> {
         self.others.clear();
         self.blocks.clear();
         self.own.clear();
+        self.own_inverse.clear();
         for (source, row) in rows.iter().enumerate() {
             self.starts.push(self.others.len() as u32);
             match joints {
@@ -68,7 +71,9 @@ impl<D: Dim> Coupling<D> {
         self.starts.push(self.others.len() as u32);
         for source in 0..rows.len() {
             let own = self.felt_by(source).find(|(other, _)| *other as usize == source);
-            self.own.push(own.map_or(D::Matrix::default(), |(_, block)| *block));
+            let own = own.map_or(D::Matrix::from_columns(|_| D::Vector::ZERO), |(_, block)| *block);
+            self.own.push(own);
+            self.own_inverse.push(own.try_inverse().unwrap_or(D::Matrix::from_columns(|_| D::Vector::ZERO)));
         }
     }
 
@@ -76,6 +81,12 @@ impl<D: Dim> Coupling<D> {
     #[inline]
     pub fn own(&self, contact: usize) -> &D::Matrix {
         &self.own[contact]
+    }
+
+    /// The impulse that stops a contact moving at this velocity, if it alone acted; zero where nothing yields [N·s].
+    #[inline]
+    pub fn stopping(&self, contact: usize, velocity: D::Vector) -> D::Vector {
+        -self.own_inverse[contact].apply(velocity)
     }
 
     /// The contacts that feel an impulse at this one, with their velocity per impulse; W is symmetric, so the transposed block is this

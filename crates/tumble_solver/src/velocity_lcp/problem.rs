@@ -77,6 +77,12 @@ impl<D: Dim> Problem<D> {
         } else if alone[0] >= 0.0 {
             return D::Vector::ZERO;
         }
+        // Most contacts stick, and need no square root to know it.
+        let sticking = self.coupling.stopping(contact, alone);
+        let (bound, along) = (friction * sticking[0], tangential(sticking));
+        if sticking[0] > held && along.dot(along) <= bound * bound {
+            return sticking;
+        }
         let surface = Surface { static_friction: friction, kinetic_friction: friction, restitution: 0.0 };
         impulse_for(own, alone, 0.0, &surface)
     }
