@@ -1,7 +1,7 @@
 //! Resting contact: forces at all touching points at once, from conditions on accelerations (L7, L8; Baraff 1989, 1994; Baraff and Witkin, part D).
 //!
-//! Idea: a point at rest pushes just as hard as it takes for its gap not to close, and not at all where the gap opens by itself. With A = J P Jᵀ (see
-//! [`Coupling`](crate::coupling)) and b all that does not depend on the forces f of the points ([`Gap::drift`], and given accelerations, joints held),
+//! Idea: a point at rest pushes just as hard as it takes for its gap not to close, and not at all where the gap opens by itself. With A = J P Jᵀ (P the
+//! [response](crate::joint::JointBlock::response) of bodies whose joints hold) and b all that does not depend on the forces f of the points ([`Gap::drift`], and given accelerations, joints held),
 //!
 //! ```text
 //! d̈ = (A f + b)_n,   0 ≤ f_n ⟂ d̈ ≥ 0

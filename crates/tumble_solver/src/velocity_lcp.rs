@@ -1,7 +1,7 @@
 //! Velocity complementarity: all contacts at once, resting and colliding, with exact friction (L9).
 //!
 //! Idea: a contact at which the bodies approach gets an impulse; one at which they part gets none; which is which is decided for all
-//! contacts together. With W = J P Jᵀ (see [`Coupling`](crate::coupling)) and u = W λ + q the velocities after the impulses λ, in contact frames,
+//! contacts together. With W = J P Jᵀ (P the [response](crate::joint::JointBlock::response) of bodies whose joints hold, M⁻¹ without joints) and u = W λ + q the velocities after the impulses λ, in contact frames,
 //!
 //! ```text
 //! 0 ≤ λ_n ⟂ u_n ≥ 0

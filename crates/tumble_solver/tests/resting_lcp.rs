@@ -9,7 +9,8 @@ use tumble_solver::joint::{JointBlock, JointEnds, Joints, revolute};
 use tumble_solver::resting_lcp::{
     Acceleration, Gap, NormalCarrier, RestingLcp, RestingReport, RestingSettings, RestingStatus,
 };
-use tumble_solver::{Slip, Surface};
+use tumble_solver::velocity_lcp::{VelocityLcp, VelocitySettings};
+use tumble_solver::{Ending, Slip, Surface};
 
 const GRAVITY: f64 = 9.81;
 
@@ -298,5 +299,74 @@ fn forces_of_the_step_before_are_a_guess_and_no_more() {
         solve(&mut forces);
         // Forces up to 40 N, to rounding.
         assert!(forces.iter().zip(&known).all(|(a, b)| (*a - *b).length() < 1e-11), "{wrong:?}: {forces:?}");
+    }
+}
+
+/// The largest acceleration of bodies that gravity pulls, by forces, and by one step of the velocity filter [m/s²].
+fn unrest(bodies: &[Body], rows: &[Row], gaps: &[Gap<Planar>]) -> [f64; 2] {
+    let falls = |body: &Body| if body.inverse_mass.y > 0.0 { dvec2(0.0, -GRAVITY) } else { DVec2::ZERO };
+    let mut accelerations: Vec<Acceleration<Planar>> =
+        bodies.iter().map(|body| Acceleration { linear: falls(body), angular: 0.0 }).collect();
+    let (mut resting, mut forces) = (rows.to_vec(), Vec::new());
+    let settings = RestingSettings::default();
+    let report =
+        RestingLcp::default().solve(bodies, &mut accelerations, &mut resting, gaps, &mut forces, None, &settings);
+    assert_eq!(report.status, RestingStatus::Solved);
+    let by_forces = accelerations.iter().map(|a| a.linear.length().max(a.angular.abs())).fold(0.0, f64::max);
+
+    let dt = 1e-3;
+    let mut filtered: Vec<Body> = bodies.iter().map(|body| moving(*body, falls(body) * dt, 0.0)).collect();
+    let settings = VelocitySettings::default();
+    let report = VelocityLcp::default().filter(&mut filtered, &mut rows.to_vec(), None, &settings);
+    assert_eq!(report.ending, Ending::Converged);
+    let by_filter = filtered.iter().map(|b| b.velocity.length().max(b.angular_velocity.abs())).fold(0.0, f64::max);
+    [by_forces, by_filter / dt]
+}
+
+#[test]
+fn e8_two_cards_hold_each_other_from_their_least_friction_on() {
+    let least = 0.233153829077;
+    for (friction, holds) in [(least * 1.0001, true), (least * 0.9999, false)] {
+        let (sine, cosine) = trig::sin_cos(25.0_f64.to_radians());
+        let card = body(1.0, 1.0 / 12.0);
+        let bodies = [FLOOR, card, card];
+        let half = 0.5 * dvec2(sine, cosine);
+        let mirrored = dvec2(-half.x, half.y);
+        let rows = [
+            on_floor(1, -half, surface(friction, 0.0)),
+            on_floor(2, -mirrored, surface(friction, 0.0)),
+            contact([1, 2], DVec2::X, [half, mirrored], Surface::default()),
+        ];
+        let gaps = rows.map(|row| Gap::corner(&row, NormalCarrier::A));
+        for unrest in unrest(&bodies, &rows, &gaps) {
+            // A ten-thousandth too little friction lets them go with about g / 10 000.
+            assert_eq!(unrest < 1e-9, holds, "{friction}: {unrest:e}");
+        }
+    }
+}
+
+#[test]
+fn e11_cylinder_stays_on_two_others_from_its_least_frictions_on() {
+    let (least_between, least_floor) = (0.267949192431, 0.089316397477);
+    for (between, floor, holds) in
+        [(1.0001, 1.0001, true), (0.9999, 1.0001, false), (1.0001, 0.9999, false), (1.5, 2.0, true)]
+    {
+        let disc = body(1.0, 0.5);
+        let bodies = [FLOOR, disc, disc, disc];
+        let surfaces = [surface(between * least_between, 0.0), surface(floor * least_floor, 0.0)];
+        let (right_up, left_up) = (dvec2(0.5, 0.75_f64.sqrt()), dvec2(-0.5, 0.75_f64.sqrt()));
+        let touch = |ends, normal| contact(ends, normal, [normal, -normal], surfaces[0]);
+        let rows = [
+            on_floor(1, -DVec2::Y, surfaces[1]),
+            on_floor(2, -DVec2::Y, surfaces[1]),
+            touch([1, 2], DVec2::X),
+            touch([1, 3], right_up),
+            touch([2, 3], left_up),
+        ];
+        let round = Gap { feature_a: DVec2::ZERO, feature_b: DVec2::ZERO, carrier: NormalCarrier::Line };
+        for unrest in unrest(&bodies, &rows, &[round; 5]) {
+            // A ten-thousandth too little friction lets them go with about g / 10 000.
+            assert_eq!(unrest < 1e-9, holds, "{between} {floor}: {unrest:e}");
+        }
     }
 }
