@@ -195,7 +195,7 @@ impl<D: Dim> VelocityLcp<D> {
         report
     }
 
-    /// Answers all impacts at once; `given[i]` is set to the impulse at contact i, in its frame [N·s].
+    /// Answers all impacts at once; `rows` are touching points, and `given[i]` is set to the impulse at point i, in its frame [N·s].
     ///
     /// Impulses of joint rows are added to. Of two islands, one that has a contact approaching faster than [`VelocitySettings::colliding_above`] is answered as a whole, its
     /// resting contacts too; the other is left alone.

@@ -370,3 +370,16 @@ fn e11_cylinder_stays_on_two_others_from_its_least_frictions_on() {
         }
     }
 }
+
+#[test]
+fn accelerations_that_are_not_finite_have_no_solution_and_stay_in_their_island() {
+    let box_ = block(1.0, DVec2::ONE);
+    let bodies = [FLOOR, box_, box_];
+    let mut rows: Vec<Row> = [(1, -0.5), (1, 0.5), (2, -0.5), (2, 0.5)]
+        .map(|(body, x)| on_floor(body, dvec2(x, -0.5), surface(0.5, 0.0)))
+        .to_vec();
+    let bad = Acceleration { linear: dvec2(0.0, f64::NAN), angular: 0.0 };
+    let (forces, _, report) = solve_with(&bodies, &[Acceleration::default(), bad, Acceleration::default()], &mut rows);
+    assert_eq!((report.status, report.no_solution), (RestingStatus::NoSolution, 1));
+    assert!((forces[2].x - 0.5 * GRAVITY).abs() < EXACT && (forces[3].x - 0.5 * GRAVITY).abs() < EXACT, "{forces:?}");
+}

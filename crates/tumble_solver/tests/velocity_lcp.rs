@@ -301,6 +301,24 @@ fn bodies_that_cannot_move_get_no_impulse_and_do_no_harm() {
 }
 
 #[test]
+fn numbers_that_are_not_finite_are_reported_and_stay_in_their_island() {
+    for solver in
+        [VelocitySolver::Auto, VelocitySolver::Pivoting, VelocitySolver::BlockGaussSeidel, VelocitySolver::Newton]
+    {
+        for bad in [dvec2(f64::NAN, -1.0), dvec2(0.0, f64::NAN), dvec2(0.0, f64::NEG_INFINITY)] {
+            let box_ = block(1.0, DVec2::ONE);
+            let mut bodies = [FLOOR, moving(box_, bad, 0.0), moving(box_, dvec2(0.0, -1.0), 0.0), FLOOR];
+            let mut rows: Vec<Row> = [(1, -0.5), (1, 0.5), (2, -0.5), (2, 0.5)]
+                .map(|(body, x)| on_floor(body, dvec2(x, -0.5), surface(0.5, 0.0)))
+                .to_vec();
+            let report = VelocityLcp::default().filter(&mut bodies, &mut rows, None, &with(solver));
+            assert_eq!(report.ending, Ending::NotConverged, "{solver:?} {bad}");
+            assert!(bodies[2].velocity.length() < 1e-11 && bodies[2].angular_velocity.abs() < 1e-11);
+        }
+    }
+}
+
+#[test]
 fn all_solvers_and_the_sweeping_filter_agree_on_a_pyramid() {
     let answer = |solver: Option<VelocitySolver>| {
         let (mut bodies, mut rows) = pyramid(4, surface(0.6, 0.0));

@@ -268,6 +268,10 @@ impl<'a, D: Dim> Stage<'a, D> {
             };
             residual = residual.max(error.abs());
         }
+        // A minimum hides what is no number.
+        if !accelerations.iter().all(|acceleration| acceleration.is_finite()) {
+            residual = f64::NAN;
+        }
         Outcome { status, forces, accelerations, iterations, residual }
     }
 

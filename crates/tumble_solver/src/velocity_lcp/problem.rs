@@ -35,6 +35,10 @@ impl<D: Dim> Problem<D> {
     pub fn residual_of(&self, contact: usize) -> f64 {
         let velocity = self.velocity(contact);
         let impulse = self.impulses[contact];
+        // A minimum hides what is no number.
+        if !(velocity.is_finite() && impulse.is_finite()) {
+            return f64::NAN;
+        }
         let own = self.coupling.own(contact);
         let yielding = own.column(0)[0];
         let normal = velocity[0].min((impulse[0] - self.held[contact]) * yielding);
