@@ -1,8 +1,8 @@
 //! W = J P Jᵀ of contacts: how fast each opens and slips per impulse at another, joints held.
 //!
 //! P is M⁻¹ without joints. With them it is M⁻¹ − M⁻¹ J_jᵀ (J_j M⁻¹ J_jᵀ)⁻¹ J_j M⁻¹, the response of bodies whose joints hold
-//! ([`JointBlock::response`](crate::joint::JointBlock::response)). Two contacts are coupled only if an impulse at one reaches a body of the other, so W is kept
-//! in blocks, one per coupled pair.
+//! ([`JointBlock::response`](crate::joint::JointBlock::response)). Two contacts are coupled only if an impulse at one reaches a body of
+//! the other, so W is kept in blocks, one per coupled pair.
 
 use tumble_lcp::Matrix as Dense;
 use tumble_math::{Dim, Linear, Matrix, Vector};

@@ -1,7 +1,7 @@
 //! Of all impulses that do the same to the bodies, the smallest: a table on four legs presses on each alike.
 //!
-//! Given a solution λ, every λ + ν with W ν = 0 leaves all velocities as they are. With E the freedom that the contacts leave (none where one opens, the
-//! direction of λ where it slides, all where it sticks), λ = E z and B = Eᵀ W E, the smallest is
+//! Given a solution λ, every λ + ν with W ν = 0 leaves all velocities as they are. With E the freedom that the contacts leave (none
+//! where one opens, the direction of λ where it slides, all where it sticks), λ = E z and B = Eᵀ W E, the smallest is
 //!
 //! ```text
 //! z_min = Q Qᵀ z             Q: orthonormal basis of the rows of B (Gram–Schmidt, largest row first)

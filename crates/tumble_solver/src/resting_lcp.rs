@@ -1,7 +1,9 @@
-//! Resting contact: forces at all touching points at once, from conditions on accelerations (L7, L8; Baraff 1989, 1994; Baraff and Witkin, part D).
+//! Resting contact: forces at all touching points at once, from conditions on accelerations (L7, L8; Baraff 1989, 1994; Baraff and
+//! Witkin, part D).
 //!
-//! Idea: a point at rest pushes just as hard as it takes for its gap not to close, and not at all where the gap opens by itself. With A = J P Jᵀ (P the
-//! [response](crate::joint::JointBlock::response) of bodies whose joints hold) and b all that does not depend on the forces f of the points ([`Gap::drift`], and given accelerations, joints held),
+//! Idea: a point at rest pushes just as hard as it takes for its gap not to close, and not at all where the gap opens by itself. With A
+//! = J P Jᵀ (P the [response](crate::joint::JointBlock::response) of bodies whose joints hold) and b all that does not depend on the
+//! forces f of the points ([`Gap::drift`], and given accelerations, joints held),
 //!
 //! ```text
 //! d̈ = (A f + b)_n,   0 ≤ f_n ⟂ d̈ ≥ 0
@@ -12,20 +14,22 @@
 //!
 //! A sliding point has only f_n as unknown, and its column of A becomes A (n − μ_k v_t/|v_t|), which is not symmetric.
 //!
-//! **Break-away.** Points at rest are solved with μ_s. One that accelerates all the same slides from now on: the island is solved again with
-//! μ_k against the acceleration it had.
+//! **Break-away.** Points at rest are solved with μ_s. One that accelerates all the same slides from now on: the island is solved again
+//! with μ_k against the acceleration it had.
 //!
-//! **None, one, several.** With friction there may be no solution, or more than one (Painlevé 1895). Both need a matrix that is no P-matrix: with all principal
-//! minors of the normal rows positive (friction of sliding points in their columns) a problem of sliding points has just one solution for every b (Cottle, Pang, Stone 1992, theorem 3.3.7). An island of up to four points
-//! with a minor that is not positive is therefore enumerated: every choice of which points push, stick or break. No solution is [`RestingStatus::NoSolution`]; several with different accelerations are
-//! [`RestingStatus::NotUnique`], of which the smallest f is taken (0 where allowed). In larger islands only the diagonal is looked at, and a solver that ends on a ray counts as no solution.
+//! **None, one, several.** With friction there may be no solution, or more than one (Painlevé 1895). Both need a matrix that is no
+//! P-matrix: with all principal minors of the normal rows positive (friction of sliding points in their columns) a problem of sliding
+//! points has just one solution for every b (Cottle, Pang, Stone 1992, theorem 3.3.7). An island of up to four points with a minor that
+//! is not positive is therefore enumerated: every choice of which points push, stick or break. No solution is
+//! [`RestingStatus::NoSolution`]; several with different accelerations are [`RestingStatus::NotUnique`], of which the smallest f is
+//! taken (0 where allowed). In larger islands only the diagonal is looked at, and a solver that ends on a ray counts as no solution.
 //!
 //! **Indeterminate.** Where statics leaves the shares open but not the accelerations, the forces of least norm are taken.
 //!
 //! In space friction at rest is bounded along each of the two tangents of the frame.
 //!
-//! Good at: contact forces as such, exact rest, exact sliding. Bad at: impacts (it has none), Painlevé's configurations, large piles. Choose it to see
-//! forces, and for few contacts.
+//! Good at: contact forces as such, exact rest, exact sliding. Bad at: impacts (it has none), Painlevé's configurations, large piles.
+//! Choose it to see forces, and for few contacts.
 
 mod gap;
 mod island;
@@ -55,7 +59,8 @@ pub struct Acceleration<D: Dim> {
 pub struct RestingSettings {
     /// A point that slips faster than this slides, with μ_k [m/s]. Default 1e-9.
     pub sliding_above: f64,
-    /// Error in an acceleration that is let pass, for accelerations of 1 m/s² and less; for larger ones in proportion [m/s²]. Default 1e-10.
+    /// Error in an acceleration that is let pass, for accelerations of 1 m/s² and less; for larger ones in proportion [m/s²]. Default
+    /// 1e-10.
     pub tolerance: f64,
 }
 
@@ -114,8 +119,9 @@ pub struct RestingLcp<D: Dim> {
 impl<D: Dim> RestingLcp<D> {
     /// Finds the force at each point, in its contact frame, on b [N], and adds what contacts and joints do to `accelerations`.
     ///
-    /// `rows` are the points at rest: touching, with no speed along the normal; their `slip` is updated. `gaps` say how their
-    /// normals turn. Forces of the step before, if they are as many, are the first guess. Joints must have been stopped, with the drift of the present velocities in their rows.
+    /// `rows` are the points at rest: touching, with no speed along the normal; their `slip` is updated. `gaps` say how their normals
+    /// turn. Forces of the step before, if they are as many, are the first guess. Joints must have been stopped, with the drift of the
+    /// present velocities in their rows.
     pub fn solve(
         &mut self,
         bodies: &[SolverBody<D>],

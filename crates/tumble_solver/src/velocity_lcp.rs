@@ -1,7 +1,8 @@
 //! Velocity complementarity: all contacts at once, resting and colliding, with exact friction (L9).
 //!
 //! Idea: a contact at which the bodies approach gets an impulse; one at which they part gets none; which is which is decided for all
-//! contacts together. With W = J P Jᵀ (P the [response](crate::joint::JointBlock::response) of bodies whose joints hold, M⁻¹ without joints) and u = W λ + q the velocities after the impulses λ, in contact frames,
+//! contacts together. With W = J P Jᵀ (P the [response](crate::joint::JointBlock::response) of bodies whose joints hold, M⁻¹ without
+//! joints) and u = W λ + q the velocities after the impulses λ, in contact frames,
 //!
 //! ```text
 //! 0 ≤ λ_n ⟂ u_n ≥ 0
@@ -9,13 +10,14 @@
 //! sliding:   λ_t = −μ_k λ_n u_t/|u_t|
 //! ```
 //!
-//! **Filter.** [`VelocityLcp::filter`]: q is the velocity after v += a Δt, plus the speed at which a small gap may close. Nothing is given back.
+//! **Filter.** [`VelocityLcp::filter`]: q is the velocity after v += a Δt, plus the speed at which a small gap may close. Nothing is
+//! given back.
 //!
-//! **Impact, Newton's law.** [`VelocityLcp::impact`] with [`Restitution::Newton`]: q_n is lowered by the rebound speed ε v_n⁻, so that u_n ≥ −ε v_n⁻ (Moreau 1988). With friction this
-//! can create energy (Kane's paradox): θ = 45°, v = (½, −1), μ = ε = 1 gains 0.109375 J.
+//! **Impact, Newton's law.** [`VelocityLcp::impact`] with [`Restitution::Newton`]: q_n is lowered by the rebound speed ε v_n⁻, so that
+//! u_n ≥ −ε v_n⁻ (Moreau 1988). With friction this can create energy (Kane's paradox): θ = 45°, v = (½, −1), μ = ε = 1 gains 0.109375 J.
 //!
-//! **Impact, Poisson's law**, the default, in two phases (Glocker and Pfeiffer 1995; Anitescu and Potra 1997). *Compression* solves with ε = 0: λᶜ, u_c = W λᶜ + q. *Expansion* adds
-//! an impulse r whose normal part is at least ε λᶜ_n, friction within its cone:
+//! **Impact, Poisson's law**, the default, in two phases (Glocker and Pfeiffer 1995; Anitescu and Potra 1997). *Compression* solves with
+//! ε = 0: λᶜ, u_c = W λᶜ + q. *Expansion* adds an impulse r whose normal part is at least ε λᶜ_n, friction within its cone:
 //!
 //! ```text
 //! u⁺ = u_c + W r,    ε λᶜ_n ≤ r_n ⟂ u_n⁺ ≥ 0,    |r_t| ≤ μ r_n against u_t⁺
@@ -27,21 +29,24 @@
 //! ΔE_c = ½ (q + u_c) · λᶜ = u_c · λᶜ − ½ λᶜ · W λᶜ ≤ 0     since u_n λ_n = 0 and u_t · λ_t = −μ λ_n |u_t| ≤ 0
 //! ```
 //!
-//! and expansion by ΔE_e = u_c · r + ½ r · W r. Without friction their sum is never positive, whatever the ε of the contacts: u_c · λᶜ = u_c · r = 0, and
+//! and expansion by ΔE_e = u_c · r + ½ r · W r. Without friction their sum is never positive, whatever the ε of the contacts: u_c · λᶜ =
+//! u_c · r = 0, and
 //!
 //! ```text
 //! (λᶜ − r) · W r ≥ 0        since W r ≥ 0 where λᶜ > 0, and r > ε λᶜ only where u_n⁺ = 0
 //! r · W r ≤ λᶜ · W r ≤ √(λᶜ · W λᶜ) √(r · W r),   so   r · W r ≤ λᶜ · W λᶜ = −2 ΔE_c
 //! ```
 //!
-//! With friction in several contacts the sum may be positive, rarely and for strong friction. Then r is scaled by the largest θ ∈ [0, 1] for which
-//! ΔE_c + θ u_c · r + ½ θ² r · W r ≤ 0: cones and u_n ≥ 0 are convex, so every θ r keeps them, and θ = 0 always qualifies. The report says so.
+//! With friction in several contacts the sum may be positive, rarely and for strong friction. Then r is scaled by the largest θ ∈ [0, 1]
+//! for which ΔE_c + θ u_c · r + ½ θ² r · W r ≤ 0: cones and u_n ≥ 0 are convex, so every θ r keeps them, and θ = 0 always qualifies. The
+//! report says so.
 //!
-//! Islands are solved apart. Pivoting and Newton's method give impulses to rounding, so that what sticks does not creep. Where statics leaves the
-//! shares open (a table on more legs than it needs), the impulses of least norm are taken, in islands of up to 24 contacts; beyond, they follow
-//! from the first guess.
+//! Islands are solved apart. Pivoting and Newton's method give impulses to rounding, so that what sticks does not creep. Where statics
+//! leaves the shares open (a table on more legs than it needs), the impulses of least norm are taken, in islands of up to 24 contacts;
+//! beyond, they follow from the first guess.
 //!
-//! Good at: simultaneous impacts, rest, exactness. Bad at: thousands of contacts in one pile. Choose it for correct answers to coupled contacts.
+//! Good at: simultaneous impacts, rest, exactness. Bad at: thousands of contacts in one pile. Choose it for correct answers to coupled
+//! contacts.
 
 mod pivot;
 mod problem;
@@ -86,7 +91,8 @@ pub struct VelocitySettings {
     pub solver: VelocitySolver,
     /// Default: [`Restitution::Poisson`].
     pub restitution: Restitution,
-    /// Error in a speed that is let pass, for speeds of 1 m/s and less; for faster ones in proportion [m/s]. Default 1e-12, well above rounding.
+    /// Error in a speed that is let pass, for speeds of 1 m/s and less; for faster ones in proportion [m/s]. Default 1e-12, well above
+    /// rounding.
     pub tolerance: f64,
     /// Most sweeps over an island [1]. Default 500; a warm start needs a few.
     pub sweeps: u32,
@@ -197,8 +203,8 @@ impl<D: Dim> VelocityLcp<D> {
 
     /// Answers all impacts at once; `rows` are touching points, and `given[i]` is set to the impulse at point i, in its frame [N·s].
     ///
-    /// Impulses of joint rows are added to. Of two islands, one that has a contact approaching faster than [`VelocitySettings::colliding_above`] is answered as a whole, its
-    /// resting contacts too; the other is left alone.
+    /// Impulses of joint rows are added to. Of two islands, one that has a contact approaching faster than
+    /// [`VelocitySettings::colliding_above`] is answered as a whole, its resting contacts too; the other is left alone.
     pub fn impact(
         &mut self,
         bodies: &mut [SolverBody<D>],

@@ -10,8 +10,8 @@
 //! p̈ = a + α × f + ω × (ω × f)                            f: centre of mass → feature
 //! ```
 //!
-//! ṅ = ω × n of the body that carries the normal (its side lies against the other's corner or round), or ṅ = (ṗ_b − ṗ_a)_t / ρ where the normal
-//! is the line between two centres (Baraff and Witkin, part D, with the curvature of rounds added).
+//! ṅ = ω × n of the body that carries the normal (its side lies against the other's corner or round), or ṅ = (ṗ_b − ṗ_a)_t / ρ where the
+//! normal is the line between two centres (Baraff and Witkin, part D, with the curvature of rounds added).
 //!
 //! The slip of a point at rest changes by the acceleration of the two material points there, whose arms r = f + o n follow the normal:
 //!
