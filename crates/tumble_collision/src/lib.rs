@@ -27,6 +27,6 @@ pub mod manifold;
 pub mod narrow;
 
 pub use broad::{BroadPhase, PairChanges, Volume};
-pub use manifold::{ContactKind, ContactPoint, FeatureId, Manifold, PlanarManifold};
+pub use manifold::{ContactKind, ContactPoint, CornerOf, FeatureId, Manifold, PlanarManifold};
 pub use narrow::planar::collide;
 pub use narrow::{PlanarQuery, Query};

@@ -85,11 +85,31 @@ impl FeatureId {
         Self(2 << 30 | Self::vertex_of_a(vertex_a).0 | vertex_b as u32 & Self::INDEX_MASK)
     }
 
+    /// Whose corner it is.
+    pub const fn corner(self) -> CornerOf {
+        match self.0 >> 30 {
+            0 => CornerOf::A,
+            1 => CornerOf::B,
+            _ => CornerOf::Both,
+        }
+    }
+
     /// The numbers of a's and b's corner, if it is one of each.
     pub const fn as_vertices(self) -> Option<(usize, usize)> {
         let (a, b) = (self.0 >> Self::INDEX_BITS & Self::INDEX_MASK, self.0 & Self::INDEX_MASK);
         if self.0 >> 30 == 2 { Some((a as usize, b as usize)) } else { None }
     }
+}
+
+/// Whose corner (or round) makes a contact point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CornerOf {
+    /// Shape a's, on a side of b.
+    A,
+    /// Shape b's, on a side of a.
+    B,
+    /// One of each.
+    Both,
 }
 
 /// One point where two shapes touch, or nearly do.

@@ -275,7 +275,7 @@ impl Recorder {
                 row.deepest_overlap = points.iter().map(|point| -point.separation).fold(row.deepest_overlap, f64::max);
             }
         }
-        if let Some(report) = world.resource::<ContactReport>().0 {
+        if let Some(report) = world.resource::<ContactReport>().solved {
             row.iterations = Some(u64::from(report.iterations));
             row.residual = Some(report.residual);
         }

@@ -12,15 +12,17 @@ use tumble_sim::{
     Amount, Anchor, AppliedForce, BodyId, CentreOverride, Course, GravityScale, IgnoredPairs, ImpulseSettings,
     InertiaOverride, Keyframe, Keyframes, LinearDrag, LinearVelocity, Lock, LockedAxes, MassOverride, MaterialId,
     Orientation, Part, PenaltySettings, Pinned, Position, QuadraticDrag, Response, Settings, Simulation, Spring,
-    SpringDamperSettings, StepError,
+    SpringDamperSettings, StepError, VelocityLcpSettings,
 };
-use tumble_solver::Surface;
+use tumble_solver::{Surface, velocity_lcp};
 
 use crate::check::remember;
 use crate::diagnostics::Diagnostics;
 use crate::expand::ExpandedBody;
 use crate::format::{AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Groups, Scene, SpringEntry};
-use crate::format::{ContactModel, ImpulseEntry, Integrator, PenaltyEntry, PenaltyLaw};
+use crate::format::{
+    ImpulseEntry, Integrator, PenaltyEntry, PenaltyLaw, RestitutionLaw, VelocityLcpEntry, VelocitySolver,
+};
 use crate::load::Loaded;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
 use crate::overlap::initial_overlaps;
@@ -122,12 +124,10 @@ fn settings(scene: &Scene) -> Settings {
             Integrator::SymplecticEuler => tumble_sim::Integrator::SymplecticEuler,
             Integrator::Ballistic => tumble_sim::Integrator::Ballistic,
         },
-        contact: match scene.contact {
-            ContactModel::Penalty => tumble_sim::ContactModel::Penalty,
-            ContactModel::Impulse => tumble_sim::ContactModel::Impulse,
-        },
+        contact: scene.contact.into(),
         penalty: penalty_settings(&scene.models.penalty, scene.length_scale),
         impulse: impulse_settings(&scene.models.impulse),
+        velocity_lcp: velocity_settings(&scene.models.velocity_lcp),
         ..Settings::default()
     }
 }
@@ -145,6 +145,21 @@ fn penalty_settings(entry: &PenaltyEntry, length_scale: f64) -> PenaltySettings 
         },
     };
     PenaltySettings { law }
+}
+
+fn velocity_settings(entry: &VelocityLcpEntry) -> VelocityLcpSettings {
+    VelocityLcpSettings {
+        solver: match entry.solver {
+            VelocitySolver::Auto => velocity_lcp::VelocitySolver::Auto,
+            VelocitySolver::Pivoting => velocity_lcp::VelocitySolver::Pivoting,
+            VelocitySolver::BlockGaussSeidel => velocity_lcp::VelocitySolver::BlockGaussSeidel,
+            VelocitySolver::Newton => velocity_lcp::VelocitySolver::Newton,
+        },
+        restitution: match entry.restitution {
+            RestitutionLaw::Poisson => velocity_lcp::Restitution::Poisson,
+            RestitutionLaw::Newton => velocity_lcp::Restitution::Newton,
+        },
+    }
 }
 
 fn impulse_settings(entry: &ImpulseEntry) -> ImpulseSettings {

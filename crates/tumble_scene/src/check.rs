@@ -97,10 +97,7 @@ impl Check for Simulation<Planar> {
 
     fn check(&mut self) -> Verdict {
         let scene = promised(self);
-        let model = match self.settings().contact {
-            tumble_sim::ContactModel::Penalty => ContactModel::Penalty,
-            tumble_sim::ContactModel::Impulse => ContactModel::Impulse,
-        };
+        let model = ContactModel::from(self.settings().contact);
         let nothing = Recording { dt: self.clock().dt, ..Recording::default() };
         let recording = self.recording().unwrap_or(&nothing);
         let mut verdict = evaluate(&scene, model, recording);

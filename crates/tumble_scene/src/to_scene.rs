@@ -27,13 +27,13 @@ use tumble_sim::{
     Parts, PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings,
     StepError,
 };
-use tumble_solver::Surface;
+use tumble_solver::{Surface, velocity_lcp};
 
 use crate::check::Promises;
 use crate::format::{
-    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ContactModel, DiscPart, Drag, ForceEntry, FrictionEntry, Groups,
-    HalfPlanePart, ImpulseEntry, Integrator, Keyframe, MaterialEntry, ModelEntries, PairEntry, Part, PenaltyEntry,
-    PenaltyLaw, PolygonPart, RodPart, Scene, SpringEntry,
+    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, DiscPart, Drag, ForceEntry, FrictionEntry, Groups, HalfPlanePart,
+    ImpulseEntry, Integrator, Keyframe, MaterialEntry, ModelEntries, PairEntry, Part, PenaltyEntry, PenaltyLaw,
+    PolygonPart, RestitutionLaw, RodPart, Scene, SpringEntry, VelocityLcpEntry, VelocitySolver,
 };
 use crate::initial_overlaps;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
@@ -127,16 +127,25 @@ fn with_settings(settings: &Settings, origin: Option<&Scene>) -> Result<Scene, U
             tumble_sim::Integrator::SymplecticEuler => Integrator::SymplecticEuler,
             tumble_sim::Integrator::Ballistic => Integrator::Ballistic,
         },
-        contact: match settings.contact {
-            tumble_sim::ContactModel::Penalty => ContactModel::Penalty,
-            tumble_sim::ContactModel::Impulse => ContactModel::Impulse,
-        },
+        contact: settings.contact.into(),
         models: ModelEntries {
             penalty: penalty_entry(&settings.penalty, settings.length_scale),
             impulse: ImpulseEntry {
                 iterations: settings.impulse.iterations,
                 colliding_tolerance: settings.impulse.colliding_above,
                 max_impulses: settings.impulse.impulses_per_contact,
+            },
+            velocity_lcp: VelocityLcpEntry {
+                solver: match settings.velocity_lcp.solver {
+                    velocity_lcp::VelocitySolver::Auto => VelocitySolver::Auto,
+                    velocity_lcp::VelocitySolver::Pivoting => VelocitySolver::Pivoting,
+                    velocity_lcp::VelocitySolver::BlockGaussSeidel => VelocitySolver::BlockGaussSeidel,
+                    velocity_lcp::VelocitySolver::Newton => VelocitySolver::Newton,
+                },
+                restitution: match settings.velocity_lcp.restitution {
+                    velocity_lcp::Restitution::Poisson => RestitutionLaw::Poisson,
+                    velocity_lcp::Restitution::Newton => RestitutionLaw::Newton,
+                },
             },
         },
         ..blank

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::schedule::StepSystems;
 
-/// A body that cannot be simulated.
+/// A body or joint that cannot be simulated.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum BodyError {
     /// A dynamic body without mass.
@@ -44,6 +44,28 @@ pub enum BodyError {
         second: String,
         /// Their id.
         id: u64,
+    },
+    /// A joint that holds a body which is not there.
+    #[error("joint \"{joint}\" holds a body that does not exist")]
+    JointWithoutBody {
+        /// Name of the joint.
+        joint: String,
+    },
+    /// A joint between a body and itself, or the world and itself.
+    #[error("joint \"{joint}\" holds one body to itself")]
+    JointToItself {
+        /// Name of the joint.
+        joint: String,
+    },
+    /// A length or an axis that no joint can have.
+    #[error("{quantity} of joint \"{joint}\" is {value}; it must be positive and finite")]
+    BadJoint {
+        /// Name of the joint.
+        joint: String,
+        /// `length` or `axis`.
+        quantity: &'static str,
+        /// What it is.
+        value: f64,
     },
     /// Two bodies with one name.
     #[error("two bodies are named \"{name}\"")]

@@ -4,11 +4,14 @@ use std::fmt::Debug;
 
 use glam::DVec2;
 use tumble_collision::{ContactPoint, PlanarManifold, PlanarQuery, Volume, collide as collide_planar};
-use tumble_math::{Planar, Pose};
+use tumble_math::{Planar, PlanarRotation, Pose, Rotation};
 use tumble_shape::{MassDim, MassProperties, PlanarShape};
+use tumble_solver::SolverBody;
+use tumble_solver::joint::{JointEnds, JointError, JointRow, distance, fixed, prismatic, revolute};
 
 use crate::body::InDim;
 use crate::engine::Engine;
+use crate::joint::{JointEntry, JointKind};
 use crate::part::Amount;
 
 /// A shape and where its body is.
@@ -62,6 +65,9 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
     /// The two ends of a rod, in the frame of the shape [m]; `None` for other shapes.
     fn rod_ends(shape: &Self::Shape) -> Option<[Self::Vector; 2]>;
 
+    /// Radius by which the corners of a shape are rounded [m].
+    fn rounding(shape: &Self::Shape) -> f64;
+
     /// Contact points of two shapes.
     fn collide(a: Posed<'_, Self>, b: Posed<'_, Self>, query: &ContactQuery<'_, Self>) -> Self::Manifold;
 
@@ -70,6 +76,22 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
 
     /// The normal of a manifold, from a to b.
     fn normal(manifold: &Self::Manifold) -> Self::Vector;
+
+    /// By how much b is turned against a.
+    fn turn_between(a: &Self::Rotation, b: &Self::Rotation) -> Self::Angular;
+
+    /// Appends the rows of a joint whose bodies have these rotations.
+    ///
+    /// # Errors
+    ///
+    /// Where the joint has no direction to act in.
+    fn push_joint_rows(
+        joint: &JointEntry<Self>,
+        ends: &JointEnds<Self>,
+        rotations: [&Self::Rotation; 2],
+        bodies: &[SolverBody<Self>],
+        rows: &mut Vec<JointRow<Self>>,
+    ) -> Result<(), JointError>;
 
     /// What makes and runs a simulation of this dimension: see [`Engine`].
     fn engine() -> &'static Engine<Self>;
@@ -106,6 +128,14 @@ impl Geometry for Planar {
         }
     }
 
+    fn rounding(shape: &PlanarShape) -> f64 {
+        match shape {
+            PlanarShape::Rod(rod) => rod.radius(),
+            PlanarShape::Disc(disc) => disc.radius(),
+            _ => 0.0,
+        }
+    }
+
     fn collide(a: Posed<'_, Self>, b: Posed<'_, Self>, query: &ContactQuery<'_, Self>) -> PlanarManifold {
         let query = PlanarQuery {
             margin: query.margin,
@@ -121,6 +151,28 @@ impl Geometry for Planar {
 
     fn normal(manifold: &PlanarManifold) -> DVec2 {
         manifold.normal
+    }
+
+    fn turn_between(a: &PlanarRotation, b: &PlanarRotation) -> f64 {
+        b.angle() - a.angle()
+    }
+
+    fn push_joint_rows(
+        joint: &JointEntry<Self>,
+        ends: &JointEnds<Self>,
+        rotations: [&PlanarRotation; 2],
+        bodies: &[SolverBody<Self>],
+        rows: &mut Vec<JointRow<Self>>,
+    ) -> Result<(), JointError> {
+        let [a, b] = rotations;
+        let turned = || Self::turn_between(a, b) - joint.turned;
+        match joint.kind {
+            JointKind::Revolute => revolute::push_rows(ends, bodies, rows),
+            JointKind::Distance { length } => distance::push_rows(ends, length, bodies, rows)?,
+            JointKind::Fixed => fixed::push_rows(ends, turned(), bodies, rows),
+            JointKind::Prismatic { axis } => prismatic::push_rows(ends, a.rotate(axis), turned(), bodies, rows)?,
+        }
+        Ok(())
     }
 
     fn engine() -> &'static Engine<Self> {

@@ -11,6 +11,7 @@ pub mod fault;
 pub mod force;
 pub mod geometry;
 pub mod integrate;
+pub mod joint;
 mod needs;
 pub mod notice;
 pub mod part;
@@ -33,11 +34,13 @@ pub use engine::Engine;
 pub use error::{BodyError, StepError, UnknownBody};
 pub use force::{Anchor, AppliedForce, Axes, Course, GravityScale, LinearDrag, QuadraticDrag, Spring};
 pub use geometry::Geometry;
+pub use joint::{Joint, JointKind, JointProblem, JointTable};
 pub use notice::Notices;
 pub use part::{Amount, Groups, MaterialId, Part, PartOf, Parts, Response};
 pub use schedule::{ForceSystems, StepSystems};
 pub use settings::{
     ContactModel, ImpulseSettings, Integrator, PenaltyLaw, PenaltySettings, Settings, SpringDamperSettings,
+    VelocityLcpSettings,
 };
 pub use simulation::{Beginning, Simulation};
 pub use structure::Structure;

@@ -10,6 +10,7 @@ use crate::body::{Keyframes, PreviousVelocity};
 use crate::contact::Colliders;
 use crate::force::{AppliedForce, GravityScale, LinearDrag, QuadraticDrag, Spring};
 use crate::geometry::Geometry;
+use crate::joint::JointTable;
 use crate::settings::{ContactModel, PenaltyLaw};
 
 /// Something that needs systems of its own.
@@ -26,7 +27,10 @@ pub(crate) enum Need {
     Detection,
     Penalty,
     LectureFloor,
-    Impulse,
+    Velocity,
+    Resting,
+    Joints,
+    JointSprings,
 }
 
 /// What the world needs now.
@@ -46,12 +50,21 @@ pub(crate) fn needs<D: Geometry>(world: &mut World) -> BTreeSet<Need> {
     need(any::<AppliedForce<D>>(world), Need::AppliedForces);
     need(any::<Keyframes<D::Vector, D::Angular>>(world), Need::Keyframes);
     need(any::<PreviousVelocity<D::Vector, D::Angular>>(world), Need::Ballistic);
-    if world.resource::<Colliders<D>>().as_slice().len() > 1 {
-        need(true, Need::Detection);
-        match (settings.contact, settings.penalty.law) {
-            (ContactModel::Impulse, _) => need(true, Need::Impulse),
-            (ContactModel::Penalty, PenaltyLaw::SpringDamper(_)) => need(true, Need::Penalty),
-            (ContactModel::Penalty, PenaltyLaw::Lecture { .. }) => need(true, Need::LectureFloor),
+    let contacts = world.resource::<Colliders<D>>().as_slice().len() > 1;
+    let joints = !world.resource::<JointTable<D>>().entries().is_empty();
+    need(contacts, Need::Detection);
+    match (settings.contact, settings.penalty.law) {
+        (ContactModel::Impulse | ContactModel::VelocityLcp | ContactModel::RestingLcp, _) => {
+            need((contacts || joints) && settings.contact == ContactModel::RestingLcp, Need::Resting);
+            need(contacts || joints, Need::Velocity);
+            need(joints, Need::Joints);
+        }
+        (ContactModel::Penalty, law) => {
+            need(joints, Need::JointSprings);
+            match law {
+                PenaltyLaw::SpringDamper(_) => need(contacts, Need::Penalty),
+                PenaltyLaw::Lecture { .. } => need(contacts, Need::LectureFloor),
+            }
         }
     }
     needs

@@ -10,6 +10,17 @@ pub struct Notices {
     moved_too_far: Option<MovedTooFar>,
     unstable_step: Option<f64>,
     not_converged: Option<NotConverged>,
+    no_solution: Option<Counted>,
+    not_unique: Option<Counted>,
+}
+
+/// Steps in which something happened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counted {
+    /// How many.
+    pub steps: u64,
+    /// The first, counted from 1.
+    pub first_step: u64,
 }
 
 /// Bodies that moved further within a step than contacts are made beforehand.
@@ -58,6 +69,24 @@ impl Notices {
         }
     }
 
+    pub(crate) fn no_solution(&mut self, step: u64) {
+        self.no_solution.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
+    }
+
+    pub(crate) fn not_unique(&mut self, step: u64) {
+        self.not_unique.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
+    }
+
+    /// Steps in which no resting forces satisfied all conditions (Painlevé), so that impulses resolved the contacts.
+    pub fn steps_without_solution(&self) -> Option<Counted> {
+        self.no_solution
+    }
+
+    /// Steps in which more than one set of accelerations satisfied all conditions.
+    pub fn ambiguous_steps(&self) -> Option<Counted> {
+        self.not_unique
+    }
+
     /// Bodies that moved further within a step than contacts are made beforehand.
     pub fn fast_bodies(&self) -> Option<MovedTooFar> {
         self.moved_too_far
@@ -85,6 +114,16 @@ impl Notices {
             sentences.push(format!(
                 "body \"{}\" may have moved {:.3} m in step {} ({} such body-steps): further than contacts are made beforehand, so it may have passed through something; choose a smaller dt or a larger speculative_limit",
                 table.entry(fast.body).name, fast.distance, fast.step, fast.count
+            ));
+        }
+        if let Some(Counted { steps, first_step }) = self.no_solution {
+            sentences.push(format!(
+                "no contact forces satisfy all conditions in {steps} steps, first in step {first_step} (a Painlevé configuration): impulses resolved them"
+            ));
+        }
+        if let Some(Counted { steps, first_step }) = self.not_unique {
+            sentences.push(format!(
+                "more than one outcome satisfies all contact conditions in {steps} steps, first in step {first_step}: the smallest forces were taken"
             ));
         }
         if let Some(worst) = self.not_converged {

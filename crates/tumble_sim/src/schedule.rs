@@ -15,14 +15,17 @@
 //! |---|---|---|---|---|
 //! | penalty | spring and damper per point | – | – | – |
 //! | impulse | – | touching contacts, accumulated impulses | no gap closes beyond touch | colliding contacts, worst first |
+//! | resting LCP | forces at all resting points | what they leave of velocities | no gap closes beyond touch | colliding contacts, worst first |
+//! | velocity LCP | – | touching contacts, all at once | no gap closes beyond touch | colliding contacts with those that touch, all at once |
+//! | *joints* | penalty: spring and damper | J v = 0 with the contacts | curvature, error | J v = 0 (ballistic) |
 
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
 
 use crate::body::follow_keyframes;
 use crate::contact::{
-    apply_lecture_floor, apply_penalty_forces, filter_positions, filter_velocities, find_contacts, find_pairs,
-    resolve_impulses, sync_pairs,
+    apply_lecture_floor, apply_penalty_forces, apply_resting_forces, filter_positions, filter_velocities,
+    find_contacts, find_pairs, resolve_impulses, sync_pairs,
 };
 use crate::force::{
     apply_forces, apply_gravity, apply_linear_drag, apply_quadratic_drag, apply_scaled_gravity, apply_springs,
@@ -31,6 +34,7 @@ use crate::geometry::Geometry;
 use crate::integrate::{
     clear_forces, compute_accelerations, integrate_velocities, remember_velocities, update_positions,
 };
+use crate::joint::{apply_joint_springs, correct_curvature, stop_joints};
 use crate::needs::Need;
 
 /// The phases of a step, in the order they run. Hook your own systems between them.
@@ -79,9 +83,14 @@ enum Place {
     Remember,
     Keyframes,
     Integrate,
+    JointSprings,
+    ContactForces,
     Filter,
+    Curvature,
     FilterPositions,
     Move,
+    Impacts,
+    StopJoints,
 }
 
 /// The schedule of one step.
@@ -123,7 +132,9 @@ pub(crate) fn step_schedule<D: Geometry>() -> Schedule {
     schedule.configure_sets(
         (Place::Remember, Place::Keyframes, Place::Integrate, Place::Filter).chain().in_set(FilterVelocities),
     );
-    schedule.configure_sets((Place::FilterPositions, Place::Move).chain().in_set(UpdatePositions));
+    schedule.configure_sets((Place::JointSprings, Place::ContactForces).chain().in_set(ForceSystems::ContactForces));
+    schedule.configure_sets((Place::Curvature, Place::FilterPositions, Place::Move).chain().in_set(UpdatePositions));
+    schedule.configure_sets((Place::StopJoints, Place::Impacts).chain().in_set(ResolveImpulses));
     schedule.add_systems((
         clear_forces::<D>.in_set(ForceSystems::Clear),
         compute_accelerations::<D>.in_set(ComputeAccelerations),
@@ -137,6 +148,7 @@ pub(crate) fn step_schedule<D: Geometry>() -> Schedule {
 pub(crate) fn begin_schedule() -> Schedule {
     let mut schedule = sequential(Begin);
     schedule.configure_sets((StepSystems::DetectCollisions, StepSystems::ResolveImpulses).chain());
+    schedule.configure_sets((Place::StopJoints, Place::Impacts).chain().in_set(StepSystems::ResolveImpulses));
     schedule
 }
 
@@ -166,16 +178,25 @@ pub(crate) fn add_systems<D: Geometry>(need: Need, step: &mut Schedule, begin: &
             begin.add_systems(detection::<D>());
             step.add_systems(detection::<D>())
         }
-        Need::Penalty => step.add_systems(apply_penalty_forces::<D>.in_set(ForceSystems::ContactForces)),
-        Need::LectureFloor => step.add_systems(apply_lecture_floor::<D>.in_set(ForceSystems::ContactForces)),
-        Need::Impulse => {
-            begin.add_systems(resolve_impulses::<D>.in_set(StepSystems::ResolveImpulses));
+        Need::Penalty => step.add_systems(apply_penalty_forces::<D>.in_set(Place::ContactForces)),
+        Need::LectureFloor => step.add_systems(apply_lecture_floor::<D>.in_set(Place::ContactForces)),
+        Need::Velocity => {
+            begin.add_systems(resolve_impulses::<D>.in_set(Place::Impacts));
             step.add_systems((
                 filter_velocities::<D>.in_set(Place::Filter),
                 filter_positions::<D>.in_set(Place::FilterPositions),
-                resolve_impulses::<D>.in_set(StepSystems::ResolveImpulses),
+                resolve_impulses::<D>.in_set(Place::Impacts),
             ))
         }
+        Need::Resting => step.add_systems(apply_resting_forces::<D>.in_set(Place::ContactForces)),
+        Need::Joints => {
+            begin.add_systems(stop_joints::<D>.in_set(Place::StopJoints));
+            step.add_systems((
+                correct_curvature::<D>.in_set(Place::Curvature),
+                stop_joints::<D>.in_set(Place::StopJoints),
+            ))
+        }
+        Need::JointSprings => step.add_systems(apply_joint_springs::<D>.in_set(Place::JointSprings)),
     };
 }
 

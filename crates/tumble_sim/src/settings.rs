@@ -2,6 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Linear, Planar};
+use tumble_solver::velocity_lcp::{Restitution, VelocitySettings, VelocitySolver};
 
 /// How positions follow velocities.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,17 +24,23 @@ pub enum ContactModel {
     Impulse,
     /// Springs and dampers on overlapping points.
     Penalty,
+    /// Forces at all resting contacts at once, from conditions on accelerations; impacts one by one.
+    RestingLcp,
+    /// Velocity complementarity: all contacts at once, exact friction.
+    VelocityLcp,
 }
 
 impl ContactModel {
     /// All models.
-    pub const ALL: [Self; 2] = [Self::Penalty, Self::Impulse];
+    pub const ALL: [Self; 4] = [Self::Penalty, Self::Impulse, Self::RestingLcp, Self::VelocityLcp];
 
     /// Its word on the command line and in outputs.
     pub fn word(self) -> &'static str {
         match self {
             Self::Penalty => "penalty",
             Self::Impulse => "impulse",
+            Self::RestingLcp => "resting-lcp",
+            Self::VelocityLcp => "velocity-lcp",
         }
     }
 }
@@ -110,6 +117,15 @@ impl Default for ImpulseSettings {
     }
 }
 
+/// Settings of the velocity complementarity model.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct VelocityLcpSettings {
+    /// How an island of contacts is solved. Default `Auto`: by pivoting up to some size, then by Newton's method and sweeps.
+    pub solver: VelocitySolver,
+    /// Which law gives back speed. Default Poisson's, which never creates energy.
+    pub restitution: Restitution,
+}
+
 /// Settings of a simulation. `Settings::default()` has Δt = 0.01 s and gravity 9.81 m/s² downwards.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct Settings<D: Dim = Planar> {
@@ -132,6 +148,8 @@ pub struct Settings<D: Dim = Planar> {
     pub penalty: PenaltySettings,
     /// Settings of the impulse model.
     pub impulse: ImpulseSettings,
+    /// Settings of the velocity complementarity model.
+    pub velocity_lcp: VelocityLcpSettings,
 }
 
 impl<D: Dim> Settings<D> {
@@ -147,6 +165,7 @@ impl<D: Dim> Settings<D> {
             contact: ContactModel::default(),
             penalty: PenaltySettings::default(),
             impulse: ImpulseSettings::default(),
+            velocity_lcp: VelocityLcpSettings::default(),
         }
     }
 
@@ -185,6 +204,16 @@ impl<D: Dim> Settings<D> {
     pub fn position_sweeps(&self, rows: usize) -> u32 {
         let budget = || (200_000 / rows.max(1)).clamp(30, 500) as u32;
         self.impulse.iterations.unwrap_or_else(budget)
+    }
+
+    /// How the velocity complementarity model is to solve.
+    pub(crate) fn velocity(&self) -> VelocitySettings {
+        VelocitySettings {
+            solver: self.velocity_lcp.solver,
+            restitution: self.velocity_lcp.restitution,
+            colliding_above: self.colliding_above(),
+            ..VelocitySettings::default()
+        }
     }
 
     /// Farthest travel within a step against which contacts are made beforehand [m].

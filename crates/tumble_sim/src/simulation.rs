@@ -16,11 +16,13 @@ use crate::body::{
 };
 use crate::contact::{
     Colliders, ContactManifold, ContactMemory, ContactPair, ContactProblem, ContactReport, Detection, IgnoredPairs,
-    Materials, PairKey, PointMemory, PositionCorrections, PreviousEnds, Touch, prepare_colliders, renumber_pairs,
+    Materials, PairKey, PointMemory, PositionCorrections, PreviousEnds, RestingModel, Touch, VelocityModel,
+    prepare_colliders, renumber_pairs,
 };
 use crate::error::{StepError, UnknownBody};
 use crate::fault::Fault;
 use crate::geometry::Geometry;
+use crate::joint::{JointProblem, JointTable, prepare_joints};
 use crate::needs::Need;
 use crate::notice::Notices;
 use crate::part::{Part, PartOf, Response};
@@ -152,7 +154,8 @@ impl<D: Geometry> Simulation<D> {
             clock.step += 1;
             clock.step
         };
-        if let Some(report) = self.world.resource::<ContactReport>().0.filter(|r| r.ending == Ending::NotConverged) {
+        if let Some(report) = self.world.resource::<ContactReport>().solved.filter(|r| r.ending == Ending::NotConverged)
+        {
             self.world.resource_mut::<Notices>().not_converged(report.residual, step);
         }
         for function in &mut self.after_step {
@@ -295,6 +298,10 @@ impl<D: Geometry> Simulation<D> {
     fn forget_last_step(&mut self) {
         *self.world.resource_mut::<ContactReport>() = ContactReport::default();
         *self.world.resource_mut::<Fault>() = Fault::default();
+        if self.known.contains(&Need::Joints) {
+            let joints = self.world.resource::<JointTable<D>>().entries().len();
+            self.world.resource_mut::<JointProblem<D>>().begin_step(joints);
+        }
         if self.known.contains(&Need::Detection) {
             self.world.resource_mut::<Messages<Touch>>().update();
             for mut memory in self.memories.iter_mut(&mut self.world) {
@@ -308,7 +315,8 @@ impl<D: Geometry> Simulation<D> {
 
     /// Whether the state of a body was changed from outside since the last step.
     fn was_edited(&mut self) -> bool {
-        self.known.contains(&Need::Detection) && self.edited.iter(&self.world).next().is_some()
+        (self.known.contains(&Need::Detection) || self.known.contains(&Need::Joints))
+            && self.edited.iter(&self.world).next().is_some()
     }
 
     fn check_fault(&self) -> Result<(), StepError> {
@@ -335,6 +343,10 @@ pub(crate) fn new_world<D: Geometry>(settings: Settings<D>) -> World {
     world.init_resource::<ContactProblem<D>>();
     world.init_resource::<PositionCorrections<D>>();
     world.init_resource::<PreviousEnds<D>>();
+    world.init_resource::<VelocityModel<D>>();
+    world.init_resource::<RestingModel<D>>();
+    world.init_resource::<JointTable<D>>();
+    world.init_resource::<JointProblem<D>>();
     world.init_resource::<ContactReport>();
     world.init_resource::<IgnoredPairs>();
     world.init_resource::<Materials>();
@@ -347,6 +359,7 @@ pub(crate) fn new_world<D: Geometry>(settings: Settings<D>) -> World {
 /// Rebuilds the tables of bodies and parts.
 pub(crate) fn rebuild<D: Geometry>(world: &mut World) -> Result<(), StepError> {
     prepare_bodies::<D>(world)?;
+    prepare_joints::<D>(world)?;
     prepare_colliders::<D>(world);
     renumber_pairs::<D>(world);
     world.resource_mut::<PreviousEnds<D>>().forget();

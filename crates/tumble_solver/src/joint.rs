@@ -68,6 +68,11 @@ impl<D: Dim> JointRow<D> {
         a.angular_velocity += a.inverse_inertia.apply(self.angular_a * -impulse);
     }
 
+    /// K = J M⁻¹ Jᵀ: speed of the row per impulse [1/kg] and alike.
+    pub fn compliance(&self, bodies: &[SolverBody<D>]) -> f64 {
+        self.coupling(self, bodies)
+    }
+
     /// J_i M⁻¹ J_jᵀ: speed of this row per impulse of another, through the bodies that they share [1/kg] and alike.
     fn coupling(&self, other: &Self, bodies: &[SolverBody<D>]) -> f64 {
         let end =

@@ -92,11 +92,7 @@ impl<D: Dim> Displacements<D> {
             return false;
         }
 
-        self.bodies.extend_from_slice(bodies);
-        for body in &mut self.bodies {
-            body.velocity = D::Vector::ZERO;
-            body.angular_velocity = D::Angular::ZERO;
-        }
+        self.begin(bodies);
         self.sums.resize(rows.len(), 0.0);
         self.takes_part.clear();
         self.takes_part.resize(rows.len(), false);
@@ -108,6 +104,17 @@ impl<D: Dim> Displacements<D> {
             self.sums[push.row as usize] = push.sum;
         }
         true
+    }
+
+    /// Displaces nothing, for bodies with these masses.
+    pub fn begin(&mut self, bodies: &[SolverBody<D>]) {
+        let still = |body: &SolverBody<D>| SolverBody {
+            velocity: D::Vector::ZERO,
+            angular_velocity: D::Angular::ZERO,
+            ..*body
+        };
+        self.bodies.clear();
+        self.bodies.extend(bodies.iter().map(still));
     }
 
     /// Lets rows take part that go too far as things are; returns whether there were any.
@@ -123,8 +130,12 @@ impl<D: Dim> Displacements<D> {
                 }
             }
         }
-        self.pushes.sort_unstable_by_key(|push| push.row);
-        self.pushes.len() > known
+        let grew = self.pushes.len() > known;
+        if grew && known > 0 {
+            // Two sorted runs: a merge.
+            self.pushes.sort_by_key(|push| push.row);
+        }
+        grew
     }
 
     /// Sweeps a few times over the rows that take part; returns whether they still move.

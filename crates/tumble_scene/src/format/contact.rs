@@ -11,23 +11,51 @@ pub enum ContactModel {
     /// Impulses, one contact at a time, worst first, until no contact is colliding.
     #[default]
     Impulse,
+    /// Colliding contacts one by one; all resting contact forces together, such that no contact accelerates into another body (Baraff).
+    RestingLcp,
+    /// Impulses of all contacts together, with exact friction.
+    VelocityLcp,
 }
 
 impl ContactModel {
     /// Every model, in the order of this file.
-    pub const ALL: [Self; 2] = [Self::Penalty, Self::Impulse];
+    pub const ALL: [Self; 4] = [Self::Penalty, Self::Impulse, Self::RestingLcp, Self::VelocityLcp];
 
     /// The word for the model on the command line.
     pub fn word(self) -> &'static str {
         match self {
             Self::Penalty => "penalty",
             Self::Impulse => "impulse",
+            Self::RestingLcp => "resting-lcp",
+            Self::VelocityLcp => "velocity-lcp",
         }
     }
 
     /// The model of a word on the command line.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|model| model.word() == word)
+    }
+}
+
+impl From<ContactModel> for tumble_sim::ContactModel {
+    fn from(model: ContactModel) -> Self {
+        match model {
+            ContactModel::Penalty => Self::Penalty,
+            ContactModel::Impulse => Self::Impulse,
+            ContactModel::RestingLcp => Self::RestingLcp,
+            ContactModel::VelocityLcp => Self::VelocityLcp,
+        }
+    }
+}
+
+impl From<tumble_sim::ContactModel> for ContactModel {
+    fn from(model: tumble_sim::ContactModel) -> Self {
+        match model {
+            tumble_sim::ContactModel::Penalty => Self::Penalty,
+            tumble_sim::ContactModel::Impulse => Self::Impulse,
+            tumble_sim::ContactModel::RestingLcp => Self::RestingLcp,
+            tumble_sim::ContactModel::VelocityLcp => Self::VelocityLcp,
+        }
     }
 }
 
@@ -41,6 +69,9 @@ pub struct ModelEntries {
     /// Settings of the impulse model.
     #[serde(default)]
     pub impulse: ImpulseEntry,
+    /// Settings of the velocity complementarity model.
+    #[serde(default)]
+    pub velocity_lcp: VelocityLcpEntry,
 }
 
 /// Settings of the penalty model; absent ones take the model's defaults.
@@ -95,4 +126,40 @@ pub struct ImpulseEntry {
     /// Impulses on colliding contacts in each step, at most, per contact [1]. Default between 2 and 200, fewer for more contacts.
     #[serde(default)]
     pub max_impulses: Option<u32>,
+}
+
+/// Settings of the velocity complementarity model; absent ones take the model's defaults.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct VelocityLcpEntry {
+    /// How contacts that hang together are solved. Default: Auto.
+    #[serde(default)]
+    pub solver: VelocitySolver,
+    /// Which law gives back speed. Default: Poisson.
+    #[serde(default)]
+    pub restitution: RestitutionLaw,
+}
+
+/// Solvers of the velocity complementarity model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum VelocitySolver {
+    /// Pivoting for few contacts, then Newton's method and sweeps.
+    #[default]
+    Auto,
+    /// Pivoting: to rounding, for any number of contacts.
+    Pivoting,
+    /// Contact after contact, again and again.
+    BlockGaussSeidel,
+    /// Newton's method on all contacts.
+    Newton,
+}
+
+/// Laws of restitution.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum RestitutionLaw {
+    /// The part of the compression impulse that comes again. Never creates energy.
+    #[default]
+    Poisson,
+    /// The part of the approach speed that comes again. With friction it can create energy.
+    Newton,
 }

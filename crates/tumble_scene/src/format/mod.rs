@@ -20,7 +20,10 @@ mod scene;
 
 pub use body::{Axis, BodyEntry, BodyKind, Drag, Groups, Jitter, Keyframe, Repeat, RepeatGrid, RepeatLine};
 pub use coefficient::Coefficient;
-pub use contact::{ContactModel, ImpulseEntry, ModelEntries, PenaltyEntry, PenaltyLaw};
+pub use contact::{
+    ContactModel, ImpulseEntry, ModelEntries, PenaltyEntry, PenaltyLaw, RestitutionLaw, VelocityLcpEntry,
+    VelocitySolver,
+};
 pub use expect::{
     AngleExpectation, AtRestExpectation, DepthExpectation, EnergyNeverRisesExpectation, Event, Expectation,
     FingerprintExpectation, ForceExpectation, FrictionExpectation, HappensExpectation, KeptExpectation,

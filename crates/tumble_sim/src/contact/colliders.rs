@@ -7,6 +7,7 @@ use tumble_math::Linear;
 
 use crate::body::{BodyId, BodyKind, BodyTable, PartFrame};
 use crate::geometry::Geometry;
+use crate::joint::JointTable;
 use crate::part::{Groups, MaterialId, Part, Parts, Response};
 
 /// One part as collision detection sees it.
@@ -88,10 +89,12 @@ pub(super) fn may_touch<D: Geometry>(
     b: &Collider<D>,
     table: &BodyTable,
     ignored: &IgnoredPairs,
+    joints: &JointTable<D>,
 ) -> bool {
     let (body_a, body_b) = (table.entry(a.body), table.entry(b.body));
     let one_moves = body_a.kind == BodyKind::Dynamic || body_b.kind == BodyKind::Dynamic;
-    a.body != b.body && one_moves && a.groups.admit(b.groups) && !ignored.contains(body_a.id, body_b.id)
+    let apart = || !ignored.contains(body_a.id, body_b.id) && !joints.hold_together(a.body, b.body);
+    a.body != b.body && one_moves && a.groups.admit(b.groups) && apart()
 }
 
 /// Rebuilds the table from the bodies and their parts.

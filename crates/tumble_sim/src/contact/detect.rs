@@ -14,6 +14,7 @@ use crate::body::{
 };
 use crate::fault::Fault;
 use crate::geometry::{ContactQuery, Geometry, Posed};
+use crate::joint::JointTable;
 use crate::notice::Notices;
 use crate::part::Response;
 use crate::{Clock, Settings};
@@ -169,6 +170,7 @@ pub fn find_pairs<D: Geometry>(
     table: Res<BodyTable>,
     colliders: Res<Colliders<D>>,
     ignored: Res<IgnoredPairs>,
+    joints: Res<JointTable<D>>,
     fault: Res<Fault>,
     mut notices: ResMut<Notices>,
     bodies: MotionQuery<D>,
@@ -215,7 +217,7 @@ pub fn find_pairs<D: Geometry>(
     }
     detection.ranks = if detection.ranks == Ranks::Forgotten { Ranks::Renewed } else { Ranks::Known };
     let list = colliders.as_slice();
-    let filter = |a: u32, b: u32| may_touch(&list[a as usize], &list[b as usize], &table, &ignored);
+    let filter = |a: u32, b: u32| may_touch(&list[a as usize], &list[b as usize], &table, &ignored, &joints);
     detection.broad.update_pairs(filter, &mut detection.changes);
 }
 

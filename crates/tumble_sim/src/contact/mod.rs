@@ -6,23 +6,27 @@
 //!            penalty forces ◀──────┼──────▶ velocity filter, position filter, one-by-one impulses
 //! ```
 
+mod approach;
 mod colliders;
 mod detect;
-mod impulse;
 mod materials;
 mod pair;
 mod penalty;
 mod problem;
+mod resting;
 mod touch;
+mod velocity;
 
 pub use colliders::{Collider, Colliders, IgnoredPairs};
 pub use detect::{Detection, find_contacts, find_pairs, sync_pairs};
-pub use impulse::{PositionCorrections, filter_positions, filter_velocities, resolve_impulses};
 pub use materials::Materials;
 pub use pair::{ContactManifold, ContactMemory, ContactPair, PairKey, PointMemory};
 pub use penalty::{PreviousEnds, apply_lecture_floor, apply_penalty_forces};
 pub use problem::{ContactProblem, ContactReport};
+pub use resting::{RestingModel, apply_resting_forces};
 pub use touch::{Touch, TouchPhase};
+pub use velocity::{PositionCorrections, VelocityModel, filter_positions, filter_velocities, resolve_impulses};
 
 pub(crate) use colliders::prepare_colliders;
 pub(crate) use detect::renumber_pairs;
+pub(crate) use problem::BodyQuery;

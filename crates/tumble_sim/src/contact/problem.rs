@@ -1,14 +1,16 @@
 //! Contacts and bodies as the slices that contact models work on, gathered from the world and scattered back.
 
 use bevy_ecs::prelude::*;
-use tumble_math::{Dim, Inertia, Linear};
+use tumble_math::{Dim, Inertia, Linear, Pose};
 use tumble_solver::filter::PreparedRow;
+use tumble_solver::resting_lcp::RestingReport;
+use tumble_solver::velocity_lcp::VelocityReport;
 use tumble_solver::{ContactRow, Ending, Report, SolverBody};
 
 use super::{ContactManifold, ContactMemory, ContactPair, Detection};
 use crate::Settings;
 use crate::body::{
-    AngularVelocity, BodyIndex, InverseInertia, InverseMass, LinearVelocity, Orientation, PreviousVelocity,
+    AngularVelocity, BodyIndex, InverseInertia, InverseMass, LinearVelocity, Orientation, Position, PreviousVelocity,
 };
 use crate::fault::{Fault, Quantity};
 use crate::geometry::Geometry;
@@ -16,12 +18,21 @@ use crate::schedule::StepSystems;
 
 /// What the contact solvers did in this step.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
-pub struct ContactReport(pub Option<Report>);
+pub struct ContactReport {
+    /// Work and remaining error; `None` where nothing was solved.
+    pub solved: Option<Report>,
+    /// Islands where the solver that was asked for failed and another took over.
+    pub fell_back: u32,
+    /// Islands without resting forces that satisfy all conditions (Painlevé): resolved by impulses.
+    pub no_solution: u32,
+    /// Islands with more than one outcome: the smallest forces were taken.
+    pub not_unique: u32,
+}
 
 impl ContactReport {
     /// Adds the report of one solver: work adds up, the worst error stays.
     pub(crate) fn add(&mut self, report: Report) {
-        let sum = self.0.get_or_insert_with(Report::default);
+        let sum = self.solved.get_or_insert_with(Report::default);
         sum.iterations += report.iterations;
         sum.residual = sum.residual.max(report.residual);
         if report.ending == Ending::NotConverged {
@@ -30,11 +41,27 @@ impl ContactReport {
     }
 }
 
+impl ContactReport {
+    /// Adds the report of a velocity problem.
+    pub(crate) fn add_velocity(&mut self, report: &VelocityReport) {
+        self.fell_back += report.fell_back;
+        self.add(Report { iterations: report.iterations, residual: report.residual, ending: report.ending });
+    }
+
+    /// Adds the report of a resting problem, its error as the speed that it makes in a step.
+    pub(crate) fn add_resting(&mut self, report: &RestingReport, dt: f64) {
+        self.no_solution += report.no_solution;
+        self.not_unique += report.not_unique;
+        let residual = report.residual * dt;
+        self.add(Report { iterations: report.iterations, residual, ending: Ending::Converged });
+    }
+}
+
 /// Bodies by rank, and contact points in the order of their pairs.
 #[derive(Resource, Debug)]
 pub struct ContactProblem<D: Geometry> {
-    /// Bodies, by rank.
-    pub(super) bodies: Vec<SolverBody<D>>,
+    /// Bodies, by rank; the world is the last.
+    pub(crate) bodies: Vec<SolverBody<D>>,
     /// Touching points first, then those with a gap; in the order of pairs and features as gathered.
     pub(super) rows: Vec<ContactRow<D>>,
     /// Where each row comes from.
@@ -77,7 +104,7 @@ impl<D: Geometry> Default for ContactProblem<D> {
 }
 
 /// The components of a body that a contact model reads and writes.
-pub(super) type BodyQuery<'w, 's, D> = Query<
+pub(crate) type BodyQuery<'w, 's, D> = Query<
     'w,
     's,
     (
@@ -88,6 +115,7 @@ pub(super) type BodyQuery<'w, 's, D> = Query<
         &'static InverseInertia<<D as Dim>::Inertia>,
         &'static Orientation<<D as Dim>::Rotation>,
         Option<&'static PreviousVelocity<<D as Dim>::Vector, <D as Dim>::Angular>>,
+        &'static Position<<D as Dim>::Vector>,
     ),
 >;
 
@@ -177,10 +205,11 @@ impl<D: Geometry> ContactProblem<D> {
         }
     }
 
-    /// Gathers velocities and inverse masses of all bodies.
-    pub(super) fn gather_bodies(&mut self, bodies: &BodyQuery<D>, count: usize) {
-        self.bodies.resize_with(count, SolverBody::default);
-        for (index, velocity, spin, inverse_mass, inverse_inertia, orientation, _) in bodies {
+    /// Gathers velocities and inverse masses of all bodies, and the world after them, which nothing moves.
+    pub(crate) fn gather_bodies(&mut self, bodies: &BodyQuery<D>, count: usize) {
+        self.bodies.resize_with(count + 1, SolverBody::default);
+        self.bodies[count] = SolverBody::default();
+        for (index, velocity, spin, inverse_mass, inverse_inertia, orientation, ..) in bodies {
             self.bodies[index.0 as usize] = SolverBody {
                 velocity: velocity.0,
                 angular_velocity: spin.0,
@@ -191,8 +220,8 @@ impl<D: Geometry> ContactProblem<D> {
     }
 
     /// Sets the velocities with which bodies are going to move: for ballistic bodies the mean over the step.
-    pub(super) fn gather_mean_velocities(&mut self, bodies: &BodyQuery<D>) {
-        for (index, velocity, spin, .., previous) in bodies {
+    pub(crate) fn gather_mean_velocities(&mut self, bodies: &BodyQuery<D>) {
+        for (index, velocity, spin, .., previous, _) in bodies {
             let body = &mut self.bodies[index.0 as usize];
             (body.velocity, body.angular_velocity) = match previous {
                 None => (velocity.0, spin.0),
@@ -201,8 +230,15 @@ impl<D: Geometry> ContactProblem<D> {
         }
     }
 
+    /// The poses of all bodies, each with its rank.
+    pub(crate) fn poses(bodies: &BodyQuery<D>) -> impl Iterator<Item = (u32, Pose<D>)> {
+        bodies.iter().map(|(index, .., orientation, _, position)| {
+            (index.0, Pose { position: position.0, rotation: orientation.0 })
+        })
+    }
+
     /// Writes the velocities back.
-    pub(super) fn scatter_bodies(&self, bodies: &mut BodyQuery<D>, fault: &mut Fault, phase: StepSystems) {
+    pub(crate) fn scatter_bodies(&self, bodies: &mut BodyQuery<D>, fault: &mut Fault, phase: StepSystems) {
         for (index, mut velocity, mut spin, ..) in bodies.iter_mut() {
             let body = &self.bodies[index.0 as usize];
             let finite = body.velocity.is_finite() && body.angular_velocity.is_finite();

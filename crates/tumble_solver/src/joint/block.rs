@@ -162,6 +162,17 @@ impl<D: Dim> JointBlock<D> {
         self.report(bodies, rows, target)
     }
 
+    /// Makes J v = c for a speed c per row, and adds the impulses to the rows.
+    pub fn drive_to(&mut self, bodies: &mut [SolverBody<D>], rows: &mut [JointRow<D>], speeds: &[f64]) {
+        // The speeds ride in a copy of the rows, where those that leave `drive` cannot be mistaken for errors.
+        let asked: Vec<JointRow<D>> =
+            rows.iter().zip(speeds).map(|(row, speed)| JointRow { error: *speed, ..*row }).collect();
+        for island in 0..self.islands.len() {
+            self.drive(island, bodies, &asked, |row| row.error);
+            self.count(island, rows);
+        }
+    }
+
     /// Velocities that an impulse of a contact frame gives to bodies at rest whose joints hold: P Jᵀ λ with
     /// P = M⁻¹ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ)⁻¹ J M⁻¹ over the joints.
     ///
