@@ -23,6 +23,7 @@ use crate::error::{StepError, UnknownBody};
 use crate::fault::Fault;
 use crate::geometry::Geometry;
 use crate::joint::{JointProblem, JointTable, prepare_joints};
+use crate::ledger::Ledger;
 use crate::needs::Need;
 use crate::notice::Notices;
 use crate::part::{Part, PartOf, Response};
@@ -125,6 +126,12 @@ impl<D: Geometry> Simulation<D> {
     /// Adds systems of one's own to the step, ordered against [`StepSystems`](crate::StepSystems).
     pub fn add_systems<M>(&mut self, systems: impl IntoScheduleConfigs<ScheduleSystem, M>) {
         self.step.add_systems(systems);
+    }
+
+    /// Keeps the [`Ledger`] of every step from now on.
+    pub fn keep_ledger(&mut self) {
+        self.world.insert_resource(Ledger::default());
+        *self.world.resource_mut::<Structure>() = Structure::Changed;
     }
 
     /// Calls a function after every step.
