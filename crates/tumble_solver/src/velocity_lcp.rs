@@ -113,12 +113,21 @@ impl Default for VelocitySettings {
 }
 
 /// What one contact gives back in an impact.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rebound {
     /// ε of Poisson's law: the part of the compression impulse that comes again [1].
     pub restitution: f64,
+    /// How many times the material's own ε that is; more than 1 where the approach speed at hand is less than the one that the surface met, which
+    /// then is no creation of energy [1]. Default 1.
+    pub reading: f64,
     /// Separating speed of Newton's law, ε times the approach speed that counts [m/s].
     pub speed: f64,
+}
+
+impl Default for Rebound {
+    fn default() -> Self {
+        Self { restitution: 0.0, reading: 1.0, speed: 0.0 }
+    }
 }
 
 /// Work, remaining error and outcome of a velocity problem.
@@ -286,7 +295,8 @@ impl<D: Dim> VelocityLcp<D> {
             work += before.dot(self.problem.impulses[i]);
             yielding += self.problem.coupling.velocity(i, &self.problem.impulses).dot(self.problem.impulses[i]);
         }
-        let part = largest_part(energy, work, yielding);
+        let read = self.contacts.iter().map(|i| rebounds[*i as usize].reading).fold(1.0, f64::max);
+        let part = largest_part(energy, work / read, yielding / (read * read));
         report.expansion = report.expansion.min(part);
         for i in self.contacts.iter().map(|i| *i as usize) {
             given[i] += self.problem.impulses[i] * part;

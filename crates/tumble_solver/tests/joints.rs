@@ -130,7 +130,7 @@ proptest! {
         block.stop(&mut bodies, &mut rows);
         let before = kinetic_energy(&bodies);
         let rebounds: Vec<Rebound> =
-            contacts.iter().map(|row| Rebound { restitution: row.surface.restitution, speed: 0.0 }).collect();
+            contacts.iter().map(|row| Rebound { restitution: row.surface.restitution, speed: 0.0, ..Rebound::default() }).collect();
         let joints = Joints { block: &mut block, rows: &mut rows };
         let settings = VelocitySettings::default();
         let report =
@@ -331,7 +331,7 @@ fn impact_of_a_pinned_rod_is_that_of_a_body_turning_about_its_pin() {
         };
         let at_once = |bodies: &mut [Body], contacts: &[ContactRow<Planar>], joints: Joints<'_, Planar>| {
             let mut given = Vec::new();
-            let rebounds = [Rebound { restitution: 0.5, speed: 0.0 }];
+            let rebounds = [Rebound { restitution: 0.5, speed: 0.0, ..Rebound::default() }];
             let settings = VelocitySettings::default();
             VelocityLcp::default().impact(bodies, contacts, &rebounds, &mut given, Some(joints), &settings);
             given[0].x

@@ -86,7 +86,7 @@ fn c10_ball_slides_or_sticks_on_a_rough_floor() {
             let mut bodies = [Body::default(), body(2.0, DVec3::splat(0.4 * 2.0 * radius * radius))];
             bodies[1].velocity = 3.0 * heading - 2.0 * DVec3::Z;
             let row = on_floor(dvec3(0.0, 0.0, -radius), friction, restitution);
-            let rebounds = [Rebound { restitution, speed: 2.0 * restitution }];
+            let rebounds = [Rebound { restitution, speed: 2.0 * restitution, ..Rebound::default() }];
             let settings = VelocitySettings { restitution: law, ..VelocitySettings::default() };
             VelocityLcp::default().impact(&mut bodies, &[row], &rebounds, &mut Vec::new(), None, &settings);
             let expected = speed * heading + 1.4 * DVec3::Z;

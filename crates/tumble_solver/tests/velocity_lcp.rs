@@ -21,7 +21,7 @@ fn impact(bodies: &mut [Body], rows: &[Row], settings: &VelocitySettings) -> (Ve
         .iter()
         .map(|row| {
             let restitution = row.surface.restitution;
-            Rebound { restitution, speed: restitution * (-row.separating_speed(bodies)).max(0.0) }
+            Rebound { restitution, speed: restitution * (-row.separating_speed(bodies)).max(0.0), ..Rebound::default() }
         })
         .collect();
     let mut given = Vec::new();

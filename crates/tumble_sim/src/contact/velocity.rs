@@ -261,8 +261,12 @@ fn rebound<D: Geometry>(row: &ContactRow<D>, reading: &Approach, bodies: &[Solve
     let speed = row.surface.restitution * (approach + reading.correction).max(0.0);
     let speed = if speed > reading.rest_below { speed + reading.half_step } else { 0.0 };
     // A contact at rest gives back what the others do to it.
-    let at_rest = approach <= reading.ignored;
-    Rebound { restitution: if at_rest { row.surface.restitution } else { speed / approach }, speed }
+    if approach <= reading.ignored {
+        return Rebound { restitution: row.surface.restitution, speed, ..Rebound::default() };
+    }
+    let restitution = speed / approach;
+    let law = row.surface.restitution;
+    Rebound { restitution, reading: if law > 0.0 { restitution / law } else { 1.0 }, speed }
 }
 
 /// Whether a point slides after its impact.
