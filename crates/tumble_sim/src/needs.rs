@@ -11,6 +11,7 @@ use crate::contact::Colliders;
 use crate::force::{AppliedForce, GravityScale, LinearDrag, QuadraticDrag, Spring};
 use crate::geometry::Geometry;
 use crate::joint::JointTable;
+use crate::ledger::Ledger;
 use crate::settings::{ContactModel, PenaltyLaw};
 
 /// Something that needs systems of its own.
@@ -31,6 +32,7 @@ pub(crate) enum Need {
     Resting,
     Joints,
     JointSprings,
+    Ledger,
 }
 
 /// What the world needs now.
@@ -50,6 +52,7 @@ pub(crate) fn needs<D: Geometry>(world: &mut World) -> BTreeSet<Need> {
     need(any::<AppliedForce<D>>(world), Need::AppliedForces);
     need(any::<Keyframes<D::Vector, D::Angular>>(world), Need::Keyframes);
     need(any::<PreviousVelocity<D::Vector, D::Angular>>(world), Need::Ballistic);
+    need(world.contains_resource::<Ledger>(), Need::Ledger);
     let contacts = world.resource::<Colliders<D>>().as_slice().len() > 1;
     let joints = !world.resource::<JointTable<D>>().entries().is_empty();
     need(contacts, Need::Detection);

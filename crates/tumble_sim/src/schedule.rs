@@ -35,6 +35,7 @@ use crate::integrate::{
     clear_forces, compute_accelerations, integrate_velocities, remember_velocities, update_positions,
 };
 use crate::joint::{apply_joint_springs, correct_curvature, stop_joints};
+use crate::ledger::{self, ForceLine};
 use crate::needs::Need;
 
 /// The phases of a step, in the order they run. Hook your own systems between them.
@@ -91,6 +92,21 @@ enum Place {
     Move,
     Impacts,
     StopJoints,
+    BookGravity,
+    BookDrag,
+    BookSprings,
+    BookUser,
+    BookJoints,
+    BookContacts,
+    BeforeForces,
+    AfterForces,
+    LookAtContacts,
+    BeforeCurvature,
+    AfterCurvature,
+    AfterMoves,
+    BeforeStop,
+    AfterStop,
+    Close,
 }
 
 /// The schedule of one step.
@@ -125,16 +141,44 @@ pub(crate) fn step_schedule<D: Geometry>() -> Schedule {
             .in_set(AccumulateForces),
     );
     schedule.configure_sets(
-        (Place::Gravity, Place::ScaledGravity, Place::LinearDrag, Place::QuadraticDrag, Place::Springs, Place::Applied)
+        (
+            (Place::Gravity, Place::ScaledGravity, Place::BookGravity).chain(),
+            (Place::LinearDrag, Place::QuadraticDrag, Place::BookDrag).chain(),
+            (Place::Springs, Place::BookSprings, Place::Applied).chain(),
+        )
             .chain()
             .in_set(ForceSystems::BuiltIn),
     );
     schedule.configure_sets(
-        (Place::Remember, Place::Keyframes, Place::Integrate, Place::Filter).chain().in_set(FilterVelocities),
+        (
+            (Place::Remember, Place::Keyframes).chain(),
+            (Place::BeforeForces, Place::Integrate, Place::AfterForces).chain(),
+            (Place::Filter, Place::LookAtContacts).chain(),
+        )
+            .chain()
+            .in_set(FilterVelocities),
     );
-    schedule.configure_sets((Place::JointSprings, Place::ContactForces).chain().in_set(ForceSystems::ContactForces));
-    schedule.configure_sets((Place::Curvature, Place::FilterPositions, Place::Move).chain().in_set(UpdatePositions));
-    schedule.configure_sets((Place::StopJoints, Place::Impacts).chain().in_set(ResolveImpulses));
+    schedule.configure_sets(
+        (
+            (Place::BookUser, Place::JointSprings, Place::BookJoints).chain(),
+            (Place::ContactForces, Place::BookContacts).chain(),
+        )
+            .chain()
+            .in_set(ForceSystems::ContactForces),
+    );
+    schedule.configure_sets(
+        (
+            (Place::BeforeCurvature, Place::Curvature, Place::AfterCurvature).chain(),
+            (Place::FilterPositions, Place::Move, Place::AfterMoves).chain(),
+        )
+            .chain()
+            .in_set(UpdatePositions),
+    );
+    schedule.configure_sets(
+        ((Place::BeforeStop, Place::StopJoints, Place::AfterStop).chain(), Place::Impacts, Place::Close)
+            .chain()
+            .in_set(ResolveImpulses),
+    );
     schedule.add_systems((
         clear_forces::<D>.in_set(ForceSystems::Clear),
         compute_accelerations::<D>.in_set(ComputeAccelerations),
@@ -196,6 +240,24 @@ pub(crate) fn add_systems<D: Geometry>(need: Need, step: &mut Schedule, begin: &
                 stop_joints::<D>.in_set(Place::StopJoints),
             ))
         }
+        Need::Ledger => step.add_systems((
+            ledger::open::<D>.in_set(ForceSystems::Clear),
+            ledger::book_forces::<D, { ForceLine::Gravity as usize }>.in_set(Place::BookGravity),
+            ledger::book_forces::<D, { ForceLine::User as usize }>.in_set(Place::BookDrag),
+            ledger::book_forces::<D, { ForceLine::Springs as usize }>.in_set(Place::BookSprings),
+            ledger::book_forces::<D, { ForceLine::User as usize }>.in_set(Place::BookUser),
+            ledger::book_forces::<D, { ForceLine::Joints as usize }>.in_set(Place::BookJoints),
+            ledger::book_forces::<D, { ForceLine::Contacts as usize }>.in_set(Place::BookContacts),
+            ledger::before_forces::<D>.in_set(Place::BeforeForces),
+            ledger::after_forces::<D>.in_set(Place::AfterForces),
+            ledger::look_at_contacts::<D>.in_set(Place::LookAtContacts),
+            ledger::before_joints::<D>.in_set(Place::BeforeCurvature),
+            ledger::after_joints::<D>.in_set(Place::AfterCurvature),
+            ledger::after_moves::<D>.in_set(Place::AfterMoves),
+            ledger::before_joints::<D>.in_set(Place::BeforeStop),
+            ledger::after_joints::<D>.in_set(Place::AfterStop),
+            ledger::close::<D>.in_set(Place::Close),
+        )),
         Need::JointSprings => step.add_systems(apply_joint_springs::<D>.in_set(Place::JointSprings)),
     };
 }

@@ -23,7 +23,7 @@ use crate::error::{StepError, UnknownBody};
 use crate::fault::Fault;
 use crate::geometry::Geometry;
 use crate::joint::{JointProblem, JointTable, prepare_joints};
-use crate::ledger::Ledger;
+use crate::ledger::{Books, Ledger};
 use crate::needs::Need;
 use crate::notice::Notices;
 use crate::part::{Part, PartOf, Response};
@@ -131,6 +131,7 @@ impl<D: Geometry> Simulation<D> {
     /// Keeps the [`Ledger`] of every step from now on.
     pub fn keep_ledger(&mut self) {
         self.world.insert_resource(Ledger::default());
+        self.world.insert_resource(Books::<D>::default());
         *self.world.resource_mut::<Structure>() = Structure::Changed;
     }
 

@@ -2,6 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Linear, Matrix};
+use tumble_solver::contact::tangential;
 use tumble_solver::penalty::{self, LectureFloor, SpringDamper};
 use tumble_solver::{ContactRow, SolverBody};
 
@@ -9,6 +10,7 @@ use super::problem::{BodyQuery, ContactProblem, PairQuery, Points};
 use super::{Colliders, ContactPair, Detection};
 use crate::body::{BodyTable, Force, Torque};
 use crate::geometry::Geometry;
+use crate::ledger::{Books, ForceLine};
 use crate::notice::Notices;
 use crate::settings::{PenaltyLaw, SpringDamperSettings};
 use crate::{Clock, Settings};
@@ -22,6 +24,7 @@ pub fn apply_penalty_forces<D: Geometry>(
     mut problem: ResMut<ContactProblem<D>>,
     mut notices: ResMut<Notices>,
     table: Res<BodyTable>,
+    mut books: Option<ResMut<Books<D>>>,
     mut pairs: PairQuery<D>,
     bodies: BodyQuery<D>,
     mut forces: Forces<D>,
@@ -33,12 +36,16 @@ pub fn apply_penalty_forces<D: Geometry>(
         return;
     }
     problem.gather_bodies(&bodies, detection.motions().len());
-    for (row, source) in problem.rows.iter().zip(&problem.sources) {
+    for (row, source) in problem.rows.iter_mut().zip(&problem.sources) {
         let Ok((_, pair, _, mut memory)) = pairs.get_mut(source.entity) else { continue };
         let contact = spring_damper(&law, pair, row, &problem.bodies, &colliders, clock.dt, &mut notices);
         let force = penalty::contact_force(row, &problem.bodies, &contact, clock.dt);
         memory.bypass_change_detection().0.as_mut()[source.point as usize].given += row.frame.apply(force) * clock.dt;
         push(row, force, &table, &mut forces);
+        row.impulse = force * clock.dt;
+        if let Some(books) = &mut books {
+            books.count_friction(row, force);
+        }
     }
 }
 
@@ -95,6 +102,7 @@ pub fn apply_lecture_floor<D: Geometry>(
     mut previous: ResMut<PreviousEnds<D>>,
     mut problem: ResMut<ContactProblem<D>>,
     table: Res<BodyTable>,
+    mut books: Option<ResMut<Books<D>>>,
     mut pairs: PairQuery<D>,
     mut forces: Forces<D>,
 ) {
@@ -129,7 +137,13 @@ pub fn apply_lecture_floor<D: Geometry>(
         let in_frame = row.frame.apply_transposed(velocity * side);
         let force = penalty::lecture_force(row.separation, in_frame, &floor);
         memory.bypass_change_detection().0.as_mut()[source.point as usize].given += row.frame.apply(force) * clock.dt;
-        push_at::<D>(ends[k] - motion.pose.position, body, row.frame.apply(force) * side, &table, &mut forces);
+        let arm = ends[k] - motion.pose.position;
+        push_at::<D>(arm, body, row.frame.apply(force) * side, &table, &mut forces);
+        if let Some(books) = &mut books {
+            let friction = row.frame.apply(tangential(force)) * side;
+            let torque = D::torque(arm, friction);
+            books.move_to(ForceLine::Friction, ForceLine::Contacts, body as usize, friction, torque);
+        }
     }
     previous.0 = ends_now;
 }

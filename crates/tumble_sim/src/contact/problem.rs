@@ -230,6 +230,12 @@ impl<D: Geometry> ContactProblem<D> {
         }
     }
 
+    /// The rows that the velocity filter held, or that touch under a model without one, and the present velocities.
+    pub(crate) fn gathered(&mut self, bodies: &BodyQuery<D>, count: usize) -> (&[ContactRow<D>], &[SolverBody<D>]) {
+        self.gather_bodies(bodies, count);
+        (&self.rows[..self.resting.max(self.touching).min(self.rows.len())], &self.bodies)
+    }
+
     /// The poses of all bodies, each with its rank.
     pub(crate) fn poses(bodies: &BodyQuery<D>) -> impl Iterator<Item = (u32, Pose<D>)> {
         bodies.iter().map(|(index, .., orientation, _, position)| {

@@ -16,6 +16,7 @@ use crate::body::{BodyTable, Force, Torque};
 use crate::contact::Colliders;
 use crate::geometry::Geometry;
 use crate::joint::{JointProblem, JointTable};
+use crate::ledger::Books;
 use crate::notice::Notices;
 use crate::{Clock, Settings};
 
@@ -32,6 +33,8 @@ pub struct RestingModel<D: Dim> {
     /// Whether some island had no solution, so that the step is resolved by impulses.
     pub(super) unsolved: bool,
     holds: Vec<JointRow<D>>,
+    /// How many of them, from the first, are joints.
+    joints: usize,
     block: JointBlock<D>,
 }
 
@@ -46,6 +49,7 @@ impl<D: Dim> Default for RestingModel<D> {
             forces: Vec::new(),
             unsolved: false,
             holds: Vec::new(),
+            joints: 0,
             block: JointBlock::default(),
         }
     }
@@ -63,6 +67,7 @@ pub fn apply_resting_forces<D: Geometry>(
     mut model: ResMut<RestingModel<D>>,
     mut report: ResMut<ContactReport>,
     mut notices: ResMut<Notices>,
+    mut books: Option<ResMut<Books<D>>>,
     mut pairs: PairQuery<D>,
     bodies: BodyQuery<D>,
     mut forces: Query<(&mut Force<D::Vector>, &mut Torque<D::Angular>)>,
@@ -108,6 +113,9 @@ pub fn apply_resting_forces<D: Geometry>(
         let world = row.frame.apply(*force);
         push(row.b, row.arm_b, world);
         push(row.a, row.arm_a, -world);
+        if let Some(books) = &mut books {
+            books.count_friction(row, *force);
+        }
         row.impulse = *force * clock.dt;
         let (problem_row, source) = (&mut problem.rows[*source as usize], problem.sources[*source as usize]);
         (problem_row.impulse, problem_row.slip) = (row.impulse, row.slip);
@@ -152,6 +160,11 @@ impl<D: Geometry> RestingModel<D> {
         }
     }
 
+    /// The rows of contact points in the last [`stop_leftover`](Self::stop_leftover), with their impulses.
+    pub(super) fn leftovers(&self) -> &[JointRow<D>] {
+        &self.holds[self.joints.min(self.holds.len())..]
+    }
+
     /// Makes points that push neither approach nor part, and those that stick stand still: the least change of velocity that does so.
     ///
     /// Joints hold with them.
@@ -177,6 +190,7 @@ impl<D: Geometry> RestingModel<D> {
         self.block.prepare(bodies, &self.holds);
         self.block.stop(bodies, &mut self.holds);
         joints.copy_from_slice(&self.holds[..joints.len()]);
+        self.joints = joints.len();
     }
 }
 

@@ -17,6 +17,7 @@ use crate::body::BodyTable;
 use crate::fault::Fault;
 use crate::geometry::Geometry;
 use crate::joint::{JointProblem, JointTable, joint_tolerance};
+use crate::ledger::Books;
 use crate::schedule::StepSystems;
 use crate::settings::ContactModel;
 use crate::simulation::Beginning;
@@ -60,6 +61,7 @@ pub fn filter_velocities<D: Geometry>(
     mut resting_model: ResMut<RestingModel<D>>,
     mut report: ResMut<ContactReport>,
     mut fault: ResMut<Fault>,
+    mut books: Option<ResMut<Books<D>>>,
     mut pairs: PairQuery<D>,
     mut bodies: BodyQuery<D>,
 ) {
@@ -74,6 +76,7 @@ pub fn filter_velocities<D: Geometry>(
     if problem.resting == 0 && joints.is_empty() {
         return;
     }
+    let before = books.as_ref().map(|_| problem.bodies.clone());
     let resting = &mut problem.rows[..problem.resting];
     match settings.contact {
         ContactModel::VelocityLcp => {
@@ -100,6 +103,13 @@ pub fn filter_velocities<D: Geometry>(
                 None => filter_slices(bodies, resting, prepared, &filter),
                 Some(joints) => filter_velocities_and_joints(bodies, resting, joints, prepared, &filter),
             });
+        }
+    }
+    if let (Some(books), Some(before)) = (&mut books, &before) {
+        let resting = &problem.rows[..problem.resting];
+        books.count_impulses(resting, resting.iter().map(|row| row.impulse), joints.rows(), before, &problem.bodies);
+        if settings.contact == ContactModel::RestingLcp && !resting_model.unsolved {
+            books.count_leftovers(resting_model.leftovers(), before, &problem.bodies);
         }
     }
     joints.collect_impulses();
@@ -172,6 +182,7 @@ pub fn resolve_impulses<D: Geometry>(
     mut model: ResMut<VelocityModel<D>>,
     mut report: ResMut<ContactReport>,
     mut fault: ResMut<Fault>,
+    mut books: Option<ResMut<Books<D>>>,
     mut pairs: PairQuery<D>,
     mut bodies: BodyQuery<D>,
 ) {
@@ -214,6 +225,7 @@ pub fn resolve_impulses<D: Geometry>(
         })
         .collect();
     joints.build(&joint_table, ContactProblem::poses(&bodies), &problem.bodies);
+    let before = books.as_ref().map(|_| problem.bodies.clone());
     match settings.contact {
         ContactModel::VelocityLcp => {
             let collides = |(row, approach): (&ContactRow<D>, &Approach)| {
@@ -237,6 +249,9 @@ pub fn resolve_impulses<D: Geometry>(
                 Some(joints) => resolve_one_by_one_with_joints(bodies, rows, &mut approaches, given, joints, &impact),
             });
         }
+    }
+    if let (Some(books), Some(before)) = (&mut books, &before) {
+        books.count_impulses(rows, problem.given.iter().copied(), joints.rows(), before, &problem.bodies);
     }
     joints.collect_impulses();
     let slip_tolerance = settings.impulse.tolerance * settings.length_scale;

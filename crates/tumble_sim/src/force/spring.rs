@@ -8,7 +8,9 @@
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Linear, Rotation};
 
-use crate::body::{AngularVelocity, Force, InDim, LinearVelocity, Orientation, Position, Torque};
+use crate::body::{AngularVelocity, BodyIndex, Force, InDim, LinearVelocity, Orientation, Position, Torque};
+use crate::geometry::Geometry;
+use crate::ledger::{Books, ForceLine};
 
 /// An end of a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +40,7 @@ type BodyQuery<'w, 's, D> = Query<
     'w,
     's,
     (
+        &'static BodyIndex,
         &'static Position<<D as Dim>::Vector>,
         &'static Orientation<<D as Dim>::Rotation>,
         &'static LinearVelocity<<D as Dim>::Vector>,
@@ -49,13 +52,19 @@ type BodyQuery<'w, 's, D> = Query<
 
 /// Where an anchor is, how fast it moves, and its arm from the centre of mass.
 struct End<D: Dim> {
+    /// Rank of the body; `None` for the world.
+    body: Option<u32>,
     point: D::Vector,
     velocity: D::Vector,
     arm: D::Vector,
 }
 
 /// Adds the forces of all springs.
-pub fn apply_springs<D: Dim<Vector: InDim>>(springs: Query<&Spring<D::Vector>>, mut bodies: BodyQuery<D>) {
+pub fn apply_springs<D: Geometry>(
+    springs: Query<&Spring<D::Vector>>,
+    mut books: Option<ResMut<Books<D>>>,
+    mut bodies: BodyQuery<D>,
+) {
     for spring in &springs {
         let (Some(a), Some(b)) = (end::<D>(&spring.a, &bodies), end::<D>(&spring.b, &bodies)) else { continue };
         let offset = b.point - a.point;
@@ -69,6 +78,14 @@ pub fn apply_springs<D: Dim<Vector: InDim>>(springs: Query<&Spring<D::Vector>>, 
         let force = direction * tension;
         pull::<D>(&spring.a, &a, force, &mut bodies);
         pull::<D>(&spring.b, &b, -force, &mut bodies);
+        if let Some(books) = &mut books {
+            let damper = direction * (spring.damping * rate);
+            for (end, force) in [(&a, damper), (&b, -damper)] {
+                if let Some(body) = end.body {
+                    books.move_to(ForceLine::User, ForceLine::Springs, body as usize, force, D::torque(end.arm, force));
+                }
+            }
+        }
     }
 }
 
@@ -80,11 +97,12 @@ pub fn spring_potential<V: Linear>(stiffness: f64, rest_length: f64, a: V, b: V)
 
 fn end<D: Dim<Vector: InDim>>(anchor: &Anchor<D::Vector>, bodies: &BodyQuery<D>) -> Option<End<D>> {
     match *anchor {
-        Anchor::World(point) => Some(End { point, velocity: D::Vector::ZERO, arm: D::Vector::ZERO }),
+        Anchor::World(point) => Some(End { body: None, point, velocity: D::Vector::ZERO, arm: D::Vector::ZERO }),
         Anchor::Body(entity, point_body) => {
-            let (position, orientation, velocity, spin, ..) = bodies.get(entity).ok()?;
+            let (index, position, orientation, velocity, spin, ..) = bodies.get(entity).ok()?;
             let arm = orientation.0.rotate(point_body);
-            Some(End { point: position.0 + arm, velocity: velocity.0 + D::spin(spin.0, arm), arm })
+            let velocity = velocity.0 + D::spin(spin.0, arm);
+            Some(End { body: Some(index.0), point: position.0 + arm, velocity, arm })
         }
     }
 }
