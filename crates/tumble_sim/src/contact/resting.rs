@@ -6,6 +6,7 @@
 use bevy_ecs::prelude::*;
 use tumble_collision::CornerOf;
 use tumble_math::{Dim, Linear, Matrix, Vector};
+use tumble_solver::contact::tangential;
 use tumble_solver::joint::{JointBlock, JointRow};
 use tumble_solver::resting_lcp::{self, Gap, NormalCarrier, RestingLcp, RestingReport, RestingSettings};
 use tumble_solver::{ContactRow, Slip, SolverBody};
@@ -28,6 +29,8 @@ pub struct RestingModel<D: Dim> {
     /// Row of the contact problem of each row here.
     of_problem: Vec<u32>,
     gaps: Vec<Gap<D>>,
+    /// Slip of each row before its forces act, in the contact frame; zero where it is round-off [m/s].
+    slips: Vec<D::Vector>,
     accelerations: Vec<resting_lcp::Acceleration<D>>,
     forces: Vec<D::Vector>,
     /// Whether some island had no solution, so that the step is resolved by impulses.
@@ -45,6 +48,7 @@ impl<D: Dim> Default for RestingModel<D> {
             rows: Vec::new(),
             of_problem: Vec::new(),
             gaps: Vec::new(),
+            slips: Vec::new(),
             accelerations: Vec::new(),
             forces: Vec::new(),
             unsolved: false,
@@ -75,6 +79,7 @@ pub fn apply_resting_forces<D: Geometry>(
     let (problem, model) = (&mut *problem, &mut *model);
     model.unsolved = false;
     model.rows.clear();
+    problem.rows.iter_mut().for_each(|row| row.impulse = D::Vector::ZERO);
     if problem.touching == 0 && joint_table.entries().is_empty() {
         return;
     }
@@ -147,6 +152,7 @@ impl<D: Geometry> RestingModel<D> {
     ) {
         self.of_problem.clear();
         self.gaps.clear();
+        self.slips.clear();
         for (i, (row, source)) in problem.rows.iter().zip(&problem.sources).take(problem.touching).enumerate() {
             // A gap that opens faster than gravity could make up for within the step is no rest.
             let parting = row.separating_speed(&problem.bodies) > settings.rest_speed(row.normal());
@@ -155,6 +161,8 @@ impl<D: Geometry> RestingModel<D> {
                 continue;
             }
             self.gaps.push(gap(row, pair, manifold, source.point, colliders));
+            let slip = tangential(row.relative_velocity(&problem.bodies));
+            self.slips.push(if slip.length() > settings.touch_tolerance() { slip } else { D::Vector::ZERO });
             self.rows.push(ContactRow { impulse: D::Vector::ZERO, ..*row });
             self.of_problem.push(i as u32);
         }
@@ -171,8 +179,10 @@ impl<D: Geometry> RestingModel<D> {
     pub(super) fn stop_leftover(&mut self, bodies: &mut [SolverBody<D>], joints: &mut [JointRow<D>]) {
         self.holds.clear();
         self.holds.extend_from_slice(joints);
-        for row in self.rows.iter().filter(|row| row.impulse[0] > 0.0) {
-            let axes = if row.slip == Slip::Sticking { D::Vector::AXES } else { 1 };
+        for (row, slip) in self.rows.iter().zip(&self.slips).filter(|(row, _)| row.impulse[0] > 0.0) {
+            // Friction that turns a slip round has stopped it within the step.
+            let turned_round = tangential(row.relative_velocity(bodies)).dot(*slip) < 0.0;
+            let axes = if row.slip == Slip::Sticking || turned_round { D::Vector::AXES } else { 1 };
             for axis in 0..axes {
                 let direction = row.frame.column(axis);
                 self.holds.push(JointRow {

@@ -77,16 +77,16 @@ pub fn filter_velocities<D: Geometry>(
         return;
     }
     let before = books.as_ref().map(|_| problem.bodies.clone());
+    // Forces of resting contacts were counted as such when they were found.
+    let counted = settings.contact == ContactModel::RestingLcp && !resting_model.unsolved;
     let resting = &mut problem.rows[..problem.resting];
     match settings.contact {
         ContactModel::VelocityLcp => {
             let velocity = settings.velocity();
             report.add_velocity(&model.0.filter(&mut problem.bodies, resting, joints.as_joints(), &velocity));
         }
-        ContactModel::RestingLcp if !resting_model.unsolved => {
+        ContactModel::RestingLcp if counted => {
             resting_model.stop_leftover(&mut problem.bodies, joints.rows_mut());
-            // Already counted as forces.
-            resting.iter_mut().for_each(|row| row.impulse = D::Vector::ZERO);
         }
         ContactModel::RestingLcp => {
             resting.iter_mut().for_each(|row| row.impulse = D::Vector::ZERO);
@@ -106,21 +106,21 @@ pub fn filter_velocities<D: Geometry>(
         }
     }
     if let (Some(books), Some(before)) = (&mut books, &before) {
-        let resting = &problem.rows[..problem.resting];
+        let resting = &problem.rows[..if counted { 0 } else { problem.resting }];
         books.count_impulses(resting, resting.iter().map(|row| row.impulse), joints.rows(), before, &problem.bodies);
-        if settings.contact == ContactModel::RestingLcp && !resting_model.unsolved {
+        if counted {
             books.count_leftovers(resting_model.leftovers(), before, &problem.bodies);
         }
     }
     joints.collect_impulses();
     problem.scatter_bodies(&mut bodies, &mut fault, StepSystems::FilterVelocities);
-
+    if counted {
+        return;
+    }
     for (row, source) in problem.rows.iter().zip(&problem.sources).take(problem.resting) {
         if let Ok((.., mut memory)) = pairs.get_mut(source.entity) {
             let memory = &mut memory.bypass_change_detection().0.as_mut()[source.point as usize];
-            if settings.contact != ContactModel::RestingLcp {
-                (memory.impulse, memory.slip) = (row.impulse, row.slip);
-            }
+            (memory.impulse, memory.slip) = (row.impulse, row.slip);
             memory.given += row.frame.apply(row.impulse);
         }
     }
