@@ -60,7 +60,9 @@
 //!
 //! One scene runs under every model, chosen by one word. [`Impulse`](sim::ContactModel::Impulse), the default, answers collisions one by one, worst
 //! first, and holds what rests: exact restitution and friction, still stacks. [`Penalty`](sim::ContactModel::Penalty) pushes overlapping points
-//! apart with springs and dampers: smooth forces, simultaneous contacts, at the price of sinking and creeping. Ideas and equations
+//! apart with springs and dampers: smooth forces, simultaneous contacts, at the price of sinking and creeping.
+//! [`VelocityLcp`](sim::ContactModel::VelocityLcp) solves all contacts that hang together at once, with exact friction: the answer for coupled impacts, and rest without
+//! creep. [`RestingLcp`](sim::ContactModel::RestingLcp) finds contact *forces* from conditions on accelerations, for few contacts. Ideas and equations
 //! stand in [`solver`], measured limits in `docs/models/`.
 //!
 //! ```
@@ -79,7 +81,26 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # 4. Shapes
+//! # 4. Joints
+//!
+//! A [`Joint`](sim::Joint) is an entity that holds two bodies, or a body and the world, together: revolute, distance, fixed, prismatic. It holds to
+//! round-off under every model but the penalty model, where it is a spring.
+//!
+//! ```
+//! use tumble::prelude::*;
+//!
+//! let mut simulation = Simulation::new(Settings { dt: 0.002, ..Settings::default() });
+//! let rod = simulation.spawn((Name::new("rod"), Position(dvec2(0.5, 0.0))));
+//! simulation.attach(rod, Part::new(Rod::try_new(dvec2(-0.5, 0.0), dvec2(0.5, 0.0), 0.0)?, Amount::Mass(1.0)));
+//! let (a, b) = (Anchor::World(dvec2(0.0, 0.0)), Anchor::Body(rod, dvec2(-0.5, 0.0)));
+//! simulation.spawn(Joint { a, b, kind: JointKind::Revolute });
+//! simulation.run_for(10.0)?;
+//! // The centre stays half a metre from the pin.
+//! assert!((simulation.body("rod")?.position().length() - 0.5).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # 5. Shapes
 //!
 //! [`Rod`](shape::Rod), [`Disc`](shape::Disc), [`ConvexPolygon`](shape::ConvexPolygon) and, for floors and walls, [`HalfPlane`](shape::HalfPlane).
 //! Mass, centre and inertia of a body add up from its parts by the parallel-axis theorem; degenerate shapes are refused with the reason.
@@ -99,7 +120,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # 5. Scenes and their promises
+//! # 6. Scenes and their promises
 //!
 //! A [`Scene`](scene::format::Scene) is plain data, read from RON with all mistakes of a file reported at once. It carries expectations, each with a tolerance
 //! and a reason, so that a scene is its own test: [run it](scene::Check::run_scene) and [check it](scene::Check::check). A world built in code can be
@@ -127,7 +148,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # 6. Recording
+//! # 7. Recording
 //!
 //! [`record`](record::Record::record) samples states and contacts while a simulation runs, and audits energy, momentum and overlap every step. From a
 //! recording come CSV tables, plots, a replay that opens in a browser, and a fingerprint of every bit of the state. See [`record`].
@@ -146,7 +167,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # 7. How accurate it is
+//! # 8. How accurate it is
 //!
 //! State is 64-bit, and the same scene gives the same bits in every run, in debug and release, whatever the order in which bodies were spawned.
 //! `docs/validation.md` lists the cases that are tested, each with its tolerance and why. The [integrators](sim::Integrator) are first and second order;
@@ -166,7 +187,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # 8. Where it is wrong
+//! # 9. Where it is wrong
 //!
 //! One-by-one impulses answer the simultaneous impacts of one body in an order, and the order shows: a rod that lands flat on both ends with
 //! ε < 1 leaves with a little spin (example 08). Penalty contact sinks and creeps. A body that moves further in one step than
@@ -186,7 +207,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # 9. Where the code lives
+//! # 10. Where the code lives
 //!
 //! One module for each layer, lowest first; each uses only what is above it in this list. `ARCHITECTURE.md` has a screen for each.
 //!

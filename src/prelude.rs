@@ -15,8 +15,9 @@ pub use tumble_scene::{Check, FromScene, ToScene};
 pub use tumble_shape::{ConvexPolygon, Disc, HalfPlane, PlanarShape, Rod};
 pub use tumble_sim::{
     Amount, Anchor, AngularVelocity, AppliedForce, Axes, BodyId, BodyKind, CentreOverride, Clock, ContactModel, Course,
-    Force, GravityScale, Groups, InertiaOverride, Integrator, Keyframe, Keyframes, LinearDrag, LinearVelocity, Lock,
-    LockedAxes, Mass, MassOverride, Orientation, Part, PenaltyLaw, PenaltySettings, Pinned, Position, QuadraticDrag,
-    Response, Settings, Simulation, Spring, SpringDamperSettings, StepSystems, Torque,
+    Force, GravityScale, Groups, InertiaOverride, Integrator, Joint, JointKind, Keyframe, Keyframes, Ledger,
+    LinearDrag, LinearVelocity, Lock, LockedAxes, Mass, MassOverride, Orientation, Part, PenaltyLaw, PenaltySettings,
+    Pinned, Position, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings, StepSystems, Torque,
+    VelocityLcpSettings,
 };
 pub use tumble_solver::Surface;
