@@ -172,7 +172,7 @@ impl<D: Geometry> JointProblem<D> {
                 break;
             }
             // Each round leaves about ω Δt of the error. Where that is much, the answer may be a leap to the far side of a joint.
-            if !(worst < 0.5 * before) {
+            if worst >= 0.5 * before || worst.is_nan() {
                 break;
             }
             before = worst;
