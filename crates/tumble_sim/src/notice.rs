@@ -12,6 +12,7 @@ pub struct Notices {
     not_converged: Option<NotConverged>,
     no_solution: Option<Counted>,
     not_unique: Option<Counted>,
+    too_large: Option<Counted>,
 }
 
 /// Steps in which something happened.
@@ -77,6 +78,15 @@ impl Notices {
         self.not_unique.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
     }
 
+    pub(crate) fn too_large(&mut self, step: u64) {
+        self.too_large.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
+    }
+
+    /// Steps in which contacts that hang together were too many for the resting model, so that impulses resolved them.
+    pub fn steps_too_large(&self) -> Option<Counted> {
+        self.too_large
+    }
+
     /// Steps in which no resting forces satisfied all conditions (Painlevé), so that impulses resolved the contacts.
     pub fn steps_without_solution(&self) -> Option<Counted> {
         self.no_solution
@@ -124,6 +134,11 @@ impl Notices {
         if let Some(Counted { steps, first_step }) = self.not_unique {
             sentences.push(format!(
                 "more than one outcome satisfies all contact conditions in {steps} steps, first in step {first_step}: the smallest forces were taken"
+            ));
+        }
+        if let Some(Counted { steps, first_step }) = self.too_large {
+            sentences.push(format!(
+                "more than 100 contacts hang together in {steps} steps, first in step {first_step}: too many for resting forces, so impulses resolved them"
             ));
         }
         if let Some(worst) = self.not_converged {

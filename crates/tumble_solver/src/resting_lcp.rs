@@ -62,11 +62,13 @@ pub struct RestingSettings {
     /// Error in an acceleration that is let pass, for accelerations of 1 m/s² and less; for larger ones in proportion [m/s²]. Default
     /// 1e-10.
     pub tolerance: f64,
+    /// Islands of more contacts are left to impulses, since the cost grows with the cube [1]. Default 100.
+    pub largest_island: usize,
 }
 
 impl Default for RestingSettings {
     fn default() -> Self {
-        Self { sliding_above: 1e-9, tolerance: 1e-10 }
+        Self { sliding_above: 1e-9, tolerance: 1e-10, largest_island: 100 }
     }
 }
 
@@ -93,6 +95,8 @@ pub struct RestingReport {
     pub not_unique: u32,
     /// Those without a solution.
     pub no_solution: u32,
+    /// Those with more contacts than [`RestingSettings::largest_island`], which were left without forces.
+    pub too_large: u32,
     /// Pivots.
     pub iterations: u32,
     /// Error that is left in the islands that were solved: largest natural map, with forces times A_ii [m/s²].
@@ -144,6 +148,12 @@ impl<D: Dim> RestingLcp<D> {
             contacts.clear();
             contacts.extend(self.islands.links(number).iter().filter(|i| (**i as usize) < rows.len()));
             if contacts.is_empty() {
+                continue;
+            }
+            if contacts.len() > settings.largest_island {
+                report.islands += 1;
+                report.too_large += 1;
+                self.unsolved.extend(&contacts);
                 continue;
             }
             let points = contacts.iter().map(|i| self.point(&rows[*i as usize], bodies, *i, settings)).collect();

@@ -102,7 +102,7 @@ pub fn apply_resting_forces<D: Geometry>(
     let resting = RestingSettings { sliding_above: settings.touch_tolerance(), ..RestingSettings::default() };
     let solved = lcp.solve(&problem.bodies, accelerations, rows, gaps, found, joints.as_joints(), &resting);
     report.add_resting(&solved, clock.dt);
-    model.unsolved = solved.no_solution > 0;
+    model.unsolved = solved.no_solution + solved.too_large > 0;
     note(&mut notices, &solved, clock.step + 1);
 
     // Joints act in phase 3, as impulses.
@@ -138,6 +138,9 @@ fn note(notices: &mut Notices, solved: &RestingReport, step: u64) {
     }
     if solved.not_unique > 0 {
         notices.not_unique(step);
+    }
+    if solved.too_large > 0 {
+        notices.too_large(step);
     }
 }
 
