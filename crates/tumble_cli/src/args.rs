@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, value_parser};
-use tumble_record::{Channel, body_quantity_names, world_names};
+use tumble_record::{Channel, body_quantity_names, joint_quantity_names, world_names};
 use tumble_scene::format::ContactModel;
 
 /// Rigid bodies in contact, simulated headless: exact, exchangeable, reproducible.
@@ -36,6 +36,8 @@ pub enum Command {
     Check(CheckArguments),
     /// Run scenes and tell which of their expectations hold
     Test(TestArguments),
+    /// Run a scene under several contact models and step sizes, side by side
+    Compare(CompareArguments),
     /// Print the JSON Schema of the scene format
     Schema,
 }
@@ -107,6 +109,30 @@ pub struct TestArguments {
     pub contact: Option<ContactModel>,
 }
 
+/// Compare contact models and step sizes.
+#[derive(Args, Debug)]
+#[command(after_help = after_compare_help())]
+pub struct CompareArguments {
+    /// A scene file, or the name of a shipped scene (see `tumble scenes`)
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+    /// Contact models; default: all for which the scene claims something
+    #[arg(long, value_name = "MODEL,…", value_delimiter = ',', value_parser = contact_model())]
+    pub contact: Vec<ContactModel>,
+    /// Time steps [s]; default: the scene's
+    #[arg(long, value_name = "S,…", value_delimiter = ',', value_parser = seconds, allow_hyphen_values = true)]
+    pub dt: Vec<f64>,
+    /// Measure how far bodies are from where this model has them, with a sixteenth of the smallest step
+    #[arg(long, value_name = "MODEL", value_parser = contact_model())]
+    pub reference: Option<ContactModel>,
+    /// The quantity that is drawn for all runs, such as `y:ball`; default: total
+    #[arg(long, value_name = "CHANNEL[:BODY]")]
+    pub plot: Option<Channel>,
+    /// Folder for the files; default: out/<scene name>/compare
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
 fn contact_model() -> impl TypedValueParser<Value = ContactModel> {
     PossibleValuesParser::new(ContactModel::ALL.map(ContactModel::word))
         .try_map(|word| ContactModel::from_word(&word).ok_or("unknown contact model"))
@@ -121,14 +147,32 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+fn channels() -> String {
+    format!(
+        "Channels of the world: {}\nChannels of a body (CHANNEL:BODY): {}\nChannels of a joint (CHANNEL:JOINT): {}",
+        world_names().join(", "),
+        body_quantity_names().join(", "),
+        joint_quantity_names().join(", ")
+    )
+}
+
+fn after_compare_help() -> String {
+    format!(
+        "Columns: expectations that hold, of those claimed for the model; the largest part of its tolerance that one of them uses;\n\
+         energy gained or lost, of the energy in play; deepest overlap; largest residual of the contact solver, in its own measure;\n\
+         drift of the bodies that the scene expects at rest, over the last tenth of the run; time per step, recording included.\n\n\
+         Files: compare.csv (the table) and compare.svg (the curves). A failed expectation does not fail the comparison.\n\n{}\n\n{EXIT_CODES}",
+        channels()
+    )
+}
+
 fn after_run_help() -> String {
     format!(
-        "Files: trajectory.csv, contacts.csv, audit.csv, touches.csv, summary.json, energy.svg, replay.html, and an SVG per plot.\n\
+        "Files: trajectory.csv, contacts.csv, audit.csv, touches.csv, joints.csv (of scenes with joints), summary.json, energy.svg, replay.html, and an SVG per plot.\n\
          They appear whole or not at all; of a run that fails or is interrupted, DIR/partial/ holds the samples so far.\n\n\
          With --contact, --dt or --duration the expectations are told, but a failed one does not fail the run.\n\n\
-         Channels of the world: {}\nChannels of a body (CHANNEL:BODY, or without :BODY of every moving body): {}\n\n{EXIT_CODES}",
-        world_names().join(", "),
-        body_quantity_names().join(", ")
+         {}\nWithout :BODY or :JOINT, a channel shows every moving body or joint.\n\n{EXIT_CODES}",
+        channels()
     )
 }
 

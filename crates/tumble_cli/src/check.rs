@@ -54,6 +54,7 @@ fn contents(loaded: &Loaded, simulation: &Simulation<Planar>) -> String {
     let mut counts = vec![(bodies, "body")];
     counts.extend([
         (scene.springs.len(), "spring"),
+        (scene.joints.len(), "joint"),
         (scene.forces.len(), "force"),
         (scene.expect.len(), "expectation"),
     ]);

@@ -16,6 +16,11 @@ pub fn figure(value: f64) -> String {
     }
 }
 
+/// A number with three significant digits: more would be noise.
+pub fn rough(value: f64) -> String {
+    figure(format!("{value:.2e}").parse().unwrap_or(value))
+}
+
 /// A decimal number without trailing zeros.
 fn trimmed(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }

@@ -1,13 +1,14 @@
 //! `tumble`: runs, checks and tests scenes of rigid bodies.
 //!
 //! - [`args`]: the command line; [`source`]: from its words to scenes;
-//! - [`run`], [`check`], [`test`], [`scenes`]: one file per command;
+//! - [`run`], [`check`], [`test`], [`compare`], [`scenes`]: one file or folder per command;
 //! - [`simulate`]: a scene from its first step to its last, or as far as it gets; [`interrupt`]: Ctrl-C;
 //! - [`report`], [`figure`]: a run in words; [`page`]: standard output, which may be closed or full;
 //! - [`failure`]: what can go wrong, and its exit code.
 
 mod args;
 mod check;
+mod compare;
 mod failure;
 mod figure;
 mod interrupt;
@@ -41,6 +42,7 @@ fn command(command: Command, page: &mut Page) -> Result<Exit, Failure> {
         Command::Scenes => scenes::scenes(page),
         Command::Check(arguments) => check::check(&arguments, page),
         Command::Test(arguments) => test::test(&arguments, page),
+        Command::Compare(arguments) => compare::compare(&arguments, page),
         Command::Schema => {
             page.line(tumble_scene::schema());
             Ok(Exit::Fine)

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use tumble_record::{BodyKind, Completeness, OutputFolder, Recording, Summary};
 use tumble_scene::expect::{Status, Verdict};
 
-use crate::figure::{Column, counted, figure, table};
+use crate::figure::{Column, counted, figure, rough, table};
 use crate::page::Page;
 
 /// The numbers of a run as aligned lines.
@@ -27,11 +27,6 @@ pub fn numbers(recording: &Recording, summary: &Summary) -> Vec<String> {
         ("fingerprint", summary.fingerprint.map_or_else(absent, |fingerprint| fingerprint.to_string())),
     ];
     table(&[Column::Left, Column::Left], &rows.map(|(name, value)| vec![name.to_owned(), value]))
-}
-
-/// A number with three significant digits: more would be noise.
-fn rough(value: f64) -> String {
-    figure(format!("{value:.2e}").parse().unwrap_or(value))
 }
 
 /// Where the files are.

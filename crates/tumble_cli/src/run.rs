@@ -14,7 +14,7 @@ use crate::simulate::{Ending, Prepared, Progress, Run, thin};
 use crate::source::Source;
 
 /// Folder of the files of all runs, one folder per scene.
-const OUT: &str = "out";
+pub const OUT: &str = "out";
 
 /// Runs a scene, writes its files and prints what came of it.
 pub fn run(arguments: &RunArguments, page: &mut Page) -> Result<Exit, Failure> {
@@ -53,7 +53,7 @@ impl Output<'_> {
     /// Refuses, before a long run, plots that cannot be drawn and a folder that cannot be made.
     fn check(&self, prepared: &mut Prepared) -> Result<(), Failure> {
         if let Some(recording) = prepared.simulation.recording() {
-            self.arguments.plots.iter().try_for_each(|channel| channel.check(&recording.bodies))?;
+            self.arguments.plots.iter().try_for_each(|channel| channel.check(recording))?;
         }
         self.folder.prepare(Completeness::Whole).map(drop)?;
         Ok(())

@@ -1,11 +1,13 @@
 //! A scene from its first step to its last, or as far as it gets.
 
+use std::ops::RangeInclusive;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use tumble_math::Planar;
 use tumble_record::{Record, Recording, Sampling};
 use tumble_scene::expect::{Verdict, evaluate, watched_steps};
+use tumble_scene::format::Scene;
 use tumble_scene::{FromScene, Loaded};
 use tumble_sim::{BodyTable, Simulation, StepError};
 
@@ -56,12 +58,18 @@ pub enum Ending {
 }
 
 impl Prepared {
-    /// Builds a scene that was read.
-    pub fn new(
+    /// Builds a scene that was read; it samples what its expectations look at, so that `every` changes no verdict.
+    pub fn new(source: &Source, loaded: Loaded, overrides: &Overrides, every: Option<u32>) -> Result<Self, Failure> {
+        Self::sampled(source, loaded, overrides, every, |scene| watched_steps(scene, scene.contact))
+    }
+
+    /// Builds a scene that was read; it samples every `every`-th step, and those of the spans.
+    pub fn sampled(
         source: &Source,
         mut loaded: Loaded,
         overrides: &Overrides,
         every: Option<u32>,
+        spans: impl FnOnce(&Scene) -> Vec<RangeInclusive<u64>>,
     ) -> Result<Self, Failure> {
         let label = source.label();
         let scene = &mut loaded.scene;
@@ -82,13 +90,17 @@ impl Prepared {
             );
             return Err(Failure::Arguments(message));
         }
-        // So that `--every` changes no verdict.
-        let sampling = Sampling::every(every).and(watched_steps(scene, scene.contact));
+        let sampling = Sampling::every(every).and(spans(scene));
         let built = |error| Failure::of_build(&label, error);
         let mut simulation = Simulation::from_loaded(&loaded).map_err(built)?;
         simulation.record_sampled(sampling.clone()).map_err(|error| built(error.into()))?;
         let name = source.stem().to_string_lossy().into_owned();
         Ok(Self { loaded, simulation, name, every, sampling, steps: steps as u64 })
+    }
+
+    /// What is recorded so far.
+    pub fn recording(&mut self) -> Option<&Recording> {
+        self.simulation.recording()
     }
 
     /// Takes all steps, or as many as possible.

@@ -159,10 +159,14 @@ fn schema_is_json_with_units() {
 fn help_and_version_are_there() {
     let bench = Bench::new();
     let help = bench.tumble(["--help"]).code(0).says("Exit codes:").says("interrupted");
-    for command in ["run", "scenes", "check", "test", "schema"] {
+    for command in ["run", "scenes", "check", "test", "compare", "schema"] {
         assert!(help.stdout.contains(&format!("\n  {command} ")), "{}", help.stdout);
         bench.tumble([command, "--help"]).code(0).says("Usage: tumble");
     }
-    bench.tumble(["run", "--help"]).code(0).says("friction_force").says("[possible values: penalty, impulse]");
+    bench
+        .tumble(["run", "--help"])
+        .code(0)
+        .says("friction_force")
+        .says("[possible values: penalty, impulse, resting-lcp, velocity-lcp]");
     bench.tumble(["--version"]).code(0).says("tumble 0.1.0");
 }

@@ -49,6 +49,20 @@ fn wrong_arguments_are_refused_by_name() {
         (&["test"], "required arguments"),
         (&["test", "missing.ron"], "cannot be read"),
         (&["test", "falling.ron", "--contact", "soft"], "possible values: penalty, impulse"),
+        (&["compare"], "required arguments"),
+        (&["compare", "missing.ron"], "cannot be read"),
+        (&["compare", "falling.ron", "--contact", "impulse,soft"], "penalty, impulse, resting-lcp, velocity-lcp"),
+        (&["compare", "falling.ron", "--reference", "best"], "penalty, impulse, resting-lcp, velocity-lcp"),
+        (&["compare", "falling.ron", "--dt", "0.01,0"], "must be positive"),
+        (&["compare", "falling.ron", "--dt", "0.01,1"], "is shorter than one step of 1 s"),
+        (&["compare", "falling.ron", "--dt", "1e-7", "--reference", "impulse", "--contact", "x"], "possible values"),
+        (&["compare", "falling.ron", "--plot", "hight"], "unknown channel `hight`"),
+        (&["compare", "falling.ron", "--plot", "y:bal"], "there is no body `bal` (did you mean `ball`?)"),
+        (&["compare", "falling.ron", "--plot", "joint_force:pin"], "there is no joint `pin`; joints: none"),
+        (
+            &["compare", "falling.ron", "--dt", "1e-3,2e-3,3e-3,4e-3"],
+            "16 runs cannot be told apart in one plot: at most 12",
+        ),
         (&["schema", "1"], "unexpected argument"),
     ];
     for (arguments, words) in cases {

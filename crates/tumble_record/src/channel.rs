@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::names::{did_you_mean, listed, nearest};
-use crate::recording::{AuditRow, BodyKind, BodyRecord, BodyState, Recording, Sample};
+use crate::recording::{AuditRow, BodyKind, BodyRecord, BodyState, JointForce, JointRecord, Recording, Sample};
 
 /// A quantity of the whole world, from the audit: one value per step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +61,27 @@ pub enum BodyQuantity {
     Contacts,
 }
 
+/// A quantity of one joint: one value per sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointQuantity {
+    /// Magnitude of its force [N].
+    Force,
+    /// Its force on its second body along x [N].
+    ForceX,
+    /// Its force on its second body along y [N].
+    ForceY,
+    /// Its torque on its second body about the anchor [N·m].
+    Torque,
+}
+
+/// Name, title and unit of the quantities of a joint.
+const JOINT_QUANTITIES: [(JointQuantity, &str, &str, &str); 4] = [
+    (JointQuantity::Force, "joint_force", "force of the joint", "N"),
+    (JointQuantity::ForceX, "joint_force_x", "force of the joint along x", "N"),
+    (JointQuantity::ForceY, "joint_force_y", "force of the joint along y", "N"),
+    (JointQuantity::Torque, "joint_torque", "torque of the joint", "N·m"),
+];
+
 /// Name, title and unit of the quantities of the world.
 const WORLD_QUANTITIES: [(WorldQuantity, &str, &str, &str); 10] = [
     (WorldQuantity::Kinetic, "kinetic", "kinetic energy", "J"),
@@ -90,7 +111,7 @@ const BODY_QUANTITIES: [(BodyQuantity, &str, &str, &str); 11] = [
     (BodyQuantity::Contacts, "contacts", "touching points", "1"),
 ];
 
-/// A quantity asked for: `total` energy of the world, `y:ball` of a body, `y` of every moving body.
+/// A quantity asked for: `total` energy of the world, `y:ball` of a body, `y` of every moving body, `joint_force:pin` of a joint.
 ///
 /// ```
 /// use tumble_record::Channel;
@@ -107,6 +128,10 @@ pub enum Channel {
     Body(BodyQuantity, String),
     /// Of every moving body, one curve each.
     EveryBody(BodyQuantity),
+    /// Of one joint.
+    Joint(JointQuantity, String),
+    /// Of every joint, one curve each.
+    EveryJoint(JointQuantity),
 }
 
 /// Most bodies whose curves share one plot; more could not be told apart.
@@ -127,7 +152,7 @@ pub struct Series {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChannelError {
     /// No quantity has this name.
-    #[error("unknown channel `{name}`{}; of the world: {}; of a body (NAME:BODY): {}", did_you_mean(.suggestion), world_names().join(", "), body_quantity_names().join(", "))]
+    #[error("unknown channel `{name}`{}; of the world: {}; of a body (NAME:BODY): {}; of a joint (NAME:JOINT): {}", did_you_mean(.suggestion), world_names().join(", "), body_quantity_names().join(", "), joint_quantity_names().join(", "))]
     UnknownName {
         /// The name that was given.
         name: String,
@@ -154,6 +179,26 @@ pub enum ChannelError {
         /// Names of all bodies.
         bodies: Vec<String>,
     },
+    /// No joint has this name.
+    #[error("channel `{channel}`: there is no joint `{joint}`{}; joints: {}", did_you_mean(.suggestion), listed(.joints))]
+    UnknownJoint {
+        /// The channel that was given.
+        channel: String,
+        /// The joint that was given.
+        joint: String,
+        /// The nearest name that exists.
+        suggestion: Option<String>,
+        /// Names of all joints.
+        joints: Vec<String>,
+    },
+    /// No joints, or more than curves that can be told apart.
+    #[error("channel `{channel}` would show {} joints, 1 to {MOST_CURVES} fit: name one as `{channel}:JOINT`; joints: {}", .joints.len(), listed(.joints))]
+    NotSoManyJoints {
+        /// The channel that was given.
+        channel: String,
+        /// Names of the joints.
+        joints: Vec<String>,
+    },
     /// More moving bodies than curves that can be told apart.
     #[error("channel `{channel}` would show {} bodies, at most {MOST_CURVES} fit: name one as `{channel}:BODY`; bodies: {}", .bodies.len(), listed(.bodies))]
     TooManyBodies {
@@ -167,12 +212,15 @@ pub enum ChannelError {
 impl FromStr for Channel {
     type Err = ChannelError;
 
-    /// Reads `NAME[:BODY]`; whether the body exists is asked by [`Channel::check`].
+    /// Reads `NAME[:BODY]` or `NAME[:JOINT]`; whether the body or joint exists is asked by [`Channel::check`].
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let (name, body) = match text.split_once(':') {
             Some((name, body)) => (name, Some(body)),
             None => (text, None),
         };
+        if let Some(&(quantity, ..)) = JOINT_QUANTITIES.iter().find(|quantity| quantity.1 == name) {
+            return Ok(body.map_or(Self::EveryJoint(quantity), |joint| Self::Joint(quantity, joint.to_owned())));
+        }
         let of_body = BODY_QUANTITIES.iter().find(|quantity| quantity.1 == name).map(|quantity| quantity.0);
         let of_world = WORLD_QUANTITIES.iter().find(|quantity| quantity.1 == name).map(|quantity| quantity.0);
         match (of_world, of_body, body) {
@@ -183,7 +231,7 @@ impl FromStr for Channel {
                 Err(ChannelError::NotOfABody { name: name.to_owned(), body: body.to_owned() })
             }
             (None, None, _) => {
-                let names = world_names().into_iter().chain(body_quantity_names());
+                let names = world_names().into_iter().chain(body_quantity_names()).chain(joint_quantity_names());
                 Err(ChannelError::UnknownName { name: name.to_owned(), suggestion: nearest(name, names) })
             }
         }
@@ -193,8 +241,8 @@ impl FromStr for Channel {
 impl fmt::Display for Channel {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Body(_, body) => write!(formatter, "{}:{body}", self.name()),
-            Self::World(_) | Self::EveryBody(_) => formatter.write_str(self.name()),
+            Self::Body(_, name) | Self::Joint(_, name) => write!(formatter, "{}:{name}", self.name()),
+            Self::World(_) | Self::EveryBody(_) | Self::EveryJoint(_) => formatter.write_str(self.name()),
         }
     }
 }
@@ -209,8 +257,8 @@ impl Channel {
     pub fn title(&self) -> String {
         let title = self.description().1;
         match self {
-            Self::Body(_, body) => format!("{body}: {title}"),
-            Self::World(_) | Self::EveryBody(_) => title.to_owned(),
+            Self::Body(_, name) | Self::Joint(_, name) => format!("{name}: {title}"),
+            Self::World(_) | Self::EveryBody(_) | Self::EveryJoint(_) => title.to_owned(),
         }
     }
 
@@ -223,7 +271,7 @@ impl Channel {
     ///
     /// Characters that a file name cannot safely have become `_`, followed by a hash of the name, so that two bodies never share a file.
     pub fn file_stem(&self) -> String {
-        let Self::Body(_, body) = self else { return self.name().to_owned() };
+        let (Self::Body(_, body) | Self::Joint(_, body)) = self else { return self.name().to_owned() };
         let is_safe = |letter: char| letter.is_ascii_alphanumeric() || "._-".contains(letter);
         let safe: String = body.chars().take(100).map(|letter| if is_safe(letter) { letter } else { '_' }).collect();
         if safe == *body {
@@ -233,9 +281,10 @@ impl Channel {
         format!("{}-{safe}-{:08x}", self.name(), hash >> 32)
     }
 
-    /// Checks that the bodies asked for exist and are not too many.
-    pub fn check(&self, bodies: &[BodyRecord]) -> Result<(), ChannelError> {
-        self.bodies(bodies).map(|_| ())
+    /// Checks that the bodies or joints asked for exist and are not too many.
+    pub fn check(&self, recording: &Recording) -> Result<(), ChannelError> {
+        self.bodies(&recording.bodies)?;
+        self.joints(&recording.joints).map(|_| ())
     }
 
     /// Returns the curves: one for the world or a body, one for each moving body if none was named.
@@ -246,6 +295,10 @@ impl Channel {
             Self::Body(quantity, _) | Self::EveryBody(quantity) => {
                 bodies.into_iter().map(|body| body_series(recording, *quantity, body)).collect()
             }
+            Self::Joint(quantity, _) | Self::EveryJoint(quantity) => {
+                let joints = self.joints(&recording.joints)?.into_iter();
+                joints.map(|joint| joint_series(recording, *quantity, joint)).collect()
+            }
         })
     }
 
@@ -253,7 +306,7 @@ impl Channel {
     fn bodies(&self, bodies: &[BodyRecord]) -> Result<Vec<usize>, ChannelError> {
         let names = |indices: &[usize]| indices.iter().map(|&index| bodies[index].name.clone()).collect::<Vec<_>>();
         match self {
-            Self::World(_) => Ok(Vec::new()),
+            Self::World(_) | Self::Joint(..) | Self::EveryJoint(_) => Ok(Vec::new()),
             Self::Body(_, name) => match bodies.iter().position(|body| body.name == *name) {
                 Some(index) => Ok(vec![index]),
                 None => Err(ChannelError::UnknownBody {
@@ -274,6 +327,27 @@ impl Channel {
         }
     }
 
+    /// Returns the indices of the joints asked for.
+    fn joints(&self, joints: &[JointRecord]) -> Result<Vec<usize>, ChannelError> {
+        let names = || joints.iter().map(|joint| joint.name.clone()).collect::<Vec<_>>();
+        match self {
+            Self::Joint(_, name) => match joints.iter().position(|joint| joint.name == *name) {
+                Some(index) => Ok(vec![index]),
+                None => Err(ChannelError::UnknownJoint {
+                    channel: self.to_string(),
+                    joint: name.clone(),
+                    suggestion: nearest(name, joints.iter().map(|joint| joint.name.as_str())),
+                    joints: names(),
+                }),
+            },
+            Self::EveryJoint(_) if !(1..=MOST_CURVES).contains(&joints.len()) => {
+                Err(ChannelError::NotSoManyJoints { channel: self.to_string(), joints: names() })
+            }
+            Self::EveryJoint(_) => Ok((0..joints.len()).collect()),
+            Self::World(_) | Self::Body(..) | Self::EveryBody(_) => Ok(Vec::new()),
+        }
+    }
+
     /// Returns name, title and unit.
     fn description(&self) -> (&'static str, &'static str, &'static str) {
         let found = match self {
@@ -282,6 +356,10 @@ impl Channel {
                 .find(|(listed, ..)| listed == quantity)
                 .map(|(_, name, title, unit)| (*name, *title, *unit)),
             Self::Body(quantity, _) | Self::EveryBody(quantity) => BODY_QUANTITIES
+                .iter()
+                .find(|(listed, ..)| listed == quantity)
+                .map(|(_, name, title, unit)| (*name, *title, *unit)),
+            Self::Joint(quantity, _) | Self::EveryJoint(quantity) => JOINT_QUANTITIES
                 .iter()
                 .find(|(listed, ..)| listed == quantity)
                 .map(|(_, name, title, unit)| (*name, *title, *unit)),
@@ -298,6 +376,11 @@ pub fn world_names() -> Vec<&'static str> {
 /// Returns the names of the quantities of a body.
 pub fn body_quantity_names() -> Vec<&'static str> {
     BODY_QUANTITIES.iter().map(|(_, name, ..)| *name).collect()
+}
+
+/// Returns the names of the quantities of a joint.
+pub fn joint_quantity_names() -> Vec<&'static str> {
+    JOINT_QUANTITIES.iter().map(|(_, name, ..)| *name).collect()
 }
 
 /// Reads a quantity off the audit; steps in which nothing was solved have no iterations and no residual.
@@ -326,6 +409,21 @@ fn body_series(recording: &Recording, quantity: BodyQuantity, body: usize) -> Se
         .map(|(sample, state)| (sample.time, body_value(quantity, recording.dt, record, body, sample, state)))
         .unzip();
     Series { label: record.name.clone(), times, values }
+}
+
+/// Reads a quantity of a joint off the samples, but the start, when no step has acted yet.
+fn joint_series(recording: &Recording, quantity: JointQuantity, joint: usize) -> Series {
+    let value = |given: &JointForce| match quantity {
+        JointQuantity::Force => given.force.length(),
+        JointQuantity::ForceX => given.force.x,
+        JointQuantity::ForceY => given.force.y,
+        JointQuantity::Torque => given.torque,
+    };
+    let samples = recording.samples.iter().filter(|sample| sample.step > 0);
+    let given =
+        samples.filter_map(|sample| Some((sample.time, sample.joints.iter().find(|given| given.joint == joint)?)));
+    let (times, values) = given.map(|(time, given)| (time, value(given))).unzip();
+    Series { label: recording.joints[joint].name.clone(), times, values }
 }
 
 /// Returns the value of a quantity of a body in one sample.

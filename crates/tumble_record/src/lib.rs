@@ -3,7 +3,7 @@
 //! A [`Recording`] holds the bodies with their shapes, samples of their states and contacts, one audit row per step and
 //! the messages of touch. [`Record`] fills it while a simulation runs. From it come
 //!
-//! - tables: [`tables`] writes `trajectory.csv`, `contacts.csv`, `audit.csv` and `touches.csv`,
+//! - tables: [`tables`] writes `trajectory.csv`, `contacts.csv`, `audit.csv`, `touches.csv` and, for scenes with joints, `joints.csv`,
 //! - numbers: [`Summary`] is `summary.json`, [`Fingerprint`] condenses a state into 32 hex digits,
 //! - curves: a [`Channel`] names a quantity (`y:ball`), [`plot`] draws it,
 //! - pictures that move: [`replay`] is one HTML file that opens offline,
@@ -14,6 +14,8 @@
 mod channel;
 mod files;
 mod fingerprint;
+mod joints;
+mod ledger;
 mod names;
 mod output;
 pub mod plot;
@@ -27,15 +29,17 @@ pub mod tables;
 mod thin;
 
 pub use channel::{
-    BodyQuantity, Channel, ChannelError, MOST_CURVES, Series, WorldQuantity, body_quantity_names, world_names,
+    BodyQuantity, Channel, ChannelError, JointQuantity, MOST_CURVES, Series, WorldQuantity, body_quantity_names,
+    joint_quantity_names, world_names,
 };
 pub use files::{Completeness, FileAction, FileError, OutputFolder, PreparedFiles, write_file};
 pub use fingerprint::{Fingerprint, FingerprintHasher, ParseFingerprintError};
+pub use ledger::{LedgerRecord, SolverEnd};
 pub use output::{OutputError, write_run};
 pub use recorder::Record;
 pub use recording::{
-    AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, SpringEnd,
-    SpringRecord, Touch, TouchPhase,
+    AnchorRecord, AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, JointForce, JointRecord,
+    Recording, Sample, ShapeRecord, SpringRecord, Touch, TouchPhase,
 };
 pub use sampling::Sampling;
 pub use summary::{Summary, energy_drift};

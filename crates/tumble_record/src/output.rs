@@ -9,7 +9,7 @@ use crate::plot::Plot;
 use crate::recording::Recording;
 use crate::replay::write_replay;
 use crate::summary::Summary;
-use crate::tables::{write_audit, write_contacts, write_touches, write_trajectory};
+use crate::tables::{write_audit, write_contacts, write_joints, write_touches, write_trajectory};
 
 /// Why the files of a run are not there.
 #[derive(Debug, thiserror::Error)]
@@ -24,7 +24,7 @@ pub enum OutputError {
 
 /// Writes the files of a run into a folder, and returns their paths.
 ///
-/// These are `trajectory.csv`, `contacts.csv`, `audit.csv`, `touches.csv`, `summary.json`, `energy.svg`, `replay.html`
+/// These are `trajectory.csv`, `contacts.csv`, `audit.csv`, `touches.csv`, `joints.csv` if there are joints, `summary.json`, `energy.svg`, `replay.html`
 /// and one SVG per channel, named by [`Channel::file_stem`]. A whole run replaces the files of an earlier one; a partial
 /// one goes to the folder `partial` beside them.
 pub fn write_run(
@@ -44,6 +44,9 @@ pub fn write_run(
     files.add("contacts.csv", |out| write_contacts(recording, out))?;
     files.add("audit.csv", |out| write_audit(recording, out))?;
     files.add("touches.csv", |out| write_touches(recording, out))?;
+    if !recording.joints.is_empty() {
+        files.add("joints.csv", |out| write_joints(recording, out))?;
+    }
     files.add("summary.json", |out| summary.write(out))?;
     for (name, plot) in &plots {
         files.add(name, |out| out.write_all(plot.to_svg().as_bytes()))?;

@@ -12,10 +12,12 @@ use tumble_shape::PlanarShape;
 use tumble_sim::contact::{Colliders, ContactManifold, ContactMemory, ContactPair};
 use tumble_sim::force::{gravity_potential, spring_potential};
 use tumble_sim::{
-    Anchor, AngularVelocity, BodyIndex, BodyInertia, BodyTable, Clock, ContactReport, GravityScale, LinearVelocity,
-    Mass, Orientation, Position, Response, Settings, Simulation, Spring, StepError, Touch as TouchMessage,
+    Anchor, AngularVelocity, BodyIndex, BodyInertia, BodyTable, Clock, ContactReport, GravityScale, Ledger,
+    LinearVelocity, Mass, Orientation, Position, Response, Settings, Simulation, Spring, StepError,
+    Touch as TouchMessage,
 };
 
+use crate::joints::JointLog;
 use crate::recording::{
     AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, Touch,
     TouchPhase,
@@ -50,6 +52,9 @@ pub trait Record {
 
 impl Record for Simulation<Planar> {
     fn record_sampled(&mut self, sampling: Sampling) -> Result<(), StepError> {
+        if self.world().get_resource::<Ledger>().is_none() {
+            self.keep_ledger();
+        }
         self.prepare()?;
         let settings = self.settings();
         let recording = Recording {
@@ -86,7 +91,7 @@ impl Record for Simulation<Planar> {
 fn after_step(world: &mut World) {
     with_recorder(world, |recorder, world| {
         recorder.follow_structure(world);
-        recorder.follow_springs(world);
+        recorder.follow_springs_and_joints(world);
         recorder.audit(world);
         recorder.touches(world);
         recorder.drop_provisional();
@@ -130,6 +135,7 @@ struct Recorder {
     /// Whether the last sample is only there because someone looked.
     provisional: bool,
     springs: SpringLog,
+    joints: JointLog,
     cursor: MessageCursor<TouchMessage>,
     queries: Queries,
 }
@@ -169,7 +175,7 @@ impl Recorder {
         let mut recorder = Self { recording, sampling, state: State::Recording, ..Self::lent() };
         recorder.queries.update(world);
         recorder.follow_structure(world);
-        recorder.follow_springs(world);
+        recorder.follow_springs_and_joints(world);
         recorder
     }
 
@@ -184,6 +190,7 @@ impl Recorder {
             table_tick: None,
             provisional: false,
             springs: SpringLog::default(),
+            joints: JointLog::default(),
             cursor: MessageCursor::default(),
             queries: Queries(None),
         }
@@ -230,13 +237,14 @@ impl Recorder {
         }
     }
 
-    /// Takes up springs that are new since the last step, and lets go of those that are gone.
-    fn follow_springs(&mut self, world: &World) {
+    /// Takes up springs and joints that are new since the last step, and lets go of those that are gone.
+    fn follow_springs_and_joints(&mut self, world: &World) {
         let (_, _, springs) = self.queries.get();
         let body_of =
             |entity| world.get::<BodyIndex>(entity).and_then(|index| self.of_rank.get(index.0 as usize)).copied();
         let time = world.resource::<Clock>().time();
         self.springs.follow(springs.iter_manual(world), body_of, time, &mut self.recording.springs);
+        self.joints.follow(world, body_of, time, &mut self.recording.joints);
     }
 
     fn audit(&mut self, world: &World) {
@@ -278,6 +286,9 @@ impl Recorder {
         if let Some(report) = world.resource::<ContactReport>().solved {
             row.iterations = Some(u64::from(report.iterations));
             row.residual = Some(report.residual);
+        }
+        if let Some(ledger) = world.get_resource::<Ledger>() {
+            row.ledger = ledger.into();
         }
         self.recording.audit.push(row);
     }
@@ -335,7 +346,9 @@ impl Recorder {
                 });
             }
         }
-        self.recording.samples.push(Sample { step: clock.step, time: clock.time(), states, contacts });
+        let mut sample = Sample { step: clock.step, time: clock.time(), states, contacts, joints: Vec::new() };
+        sample.joints = self.joints.forces(world, &self.recording.joints, &sample);
+        self.recording.samples.push(sample);
     }
 
     /// Adds the present as a sample that the next step may drop again.

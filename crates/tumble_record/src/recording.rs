@@ -4,8 +4,10 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
+use tumble_math::{Planar, PlanarRotation, Pose};
 
 use crate::fingerprint::{Fingerprint, FingerprintHasher};
+use crate::ledger::LedgerRecord;
 
 /// Everything that is kept of one run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -25,6 +27,9 @@ pub struct Recording {
     /// All springs that were ever in the world, in the order they appeared.
     #[serde(default)]
     pub springs: Vec<SpringRecord>,
+    /// All joints that were ever in the world, in the order they appeared.
+    #[serde(default)]
+    pub joints: Vec<JointRecord>,
     /// States and contacts at the sampled steps, in the order of time.
     pub samples: Vec<Sample>,
     /// Sums over the whole world, one row per step; empty when audits were off.
@@ -107,9 +112,9 @@ pub enum Geometry {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpringRecord {
     /// One end.
-    pub a: SpringEnd,
+    pub a: AnchorRecord,
     /// The other end.
-    pub b: SpringEnd,
+    pub b: AnchorRecord,
     /// Length without force [m].
     pub rest_length: f64,
     /// Since when it is there [s].
@@ -118,9 +123,41 @@ pub struct SpringRecord {
     pub until: Option<f64>,
 }
 
-/// Where an end of a spring is held.
+/// A joint between two bodies, or a body and the world.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JointRecord {
+    /// Unique name.
+    pub name: String,
+    /// What it lets the two do, in a word: `revolute`, `distance`, `fixed`, `prismatic`.
+    pub kind: Cow<'static, str>,
+    /// Where it holds the first body.
+    pub a: AnchorRecord,
+    /// Where it holds the second body.
+    pub b: AnchorRecord,
+    /// Direction of sliding, in the frame of the first body; only of prismatic joints [1].
+    pub axis: Option<DVec2>,
+    /// Since when it is there [s].
+    pub from: f64,
+    /// From when on it is gone; `None` if it stayed to the end [s].
+    pub until: Option<f64>,
+}
+
+/// What a joint did to its second body in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SpringEnd {
+pub struct JointForce {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Where it holds the second body [m].
+    pub point: DVec2,
+    /// Force at that point, in world axes, mean over the step [N].
+    pub force: DVec2,
+    /// Torque about that point, counter-clockwise, mean over the step [N·m].
+    pub torque: f64,
+}
+
+/// Where a spring or a joint is held.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AnchorRecord {
     /// Index of the body; `None` for a point of the world.
     pub body: Option<usize>,
     /// The point, in the body frame, or in world axes without a body [m].
@@ -138,6 +175,19 @@ pub struct Sample {
     pub states: Vec<Option<BodyState>>,
     /// Touching points.
     pub contacts: Vec<ContactRecord>,
+    /// Forces of the joints that are in the world, those of the step that ended here.
+    #[serde(default)]
+    pub joints: Vec<JointForce>,
+}
+
+impl AnchorRecord {
+    /// Returns where it is in a sample, or nothing while its body is not in the world [m].
+    pub fn in_world(&self, sample: &Sample) -> Option<DVec2> {
+        let Some(body) = self.body else { return Some(self.point) };
+        let state = sample.state(body)?;
+        let pose = Pose::<Planar> { position: state.position, rotation: PlanarRotation::from_angle(state.angle) };
+        Some(pose.transform_point(self.point))
+    }
 }
 
 impl Sample {
@@ -218,6 +268,9 @@ pub struct AuditRow {
     pub iterations: Option<u64>,
     /// What the contact solver left unsolved, in its own measure.
     pub residual: Option<f64>,
+    /// The books of the step.
+    #[serde(default)]
+    pub ledger: LedgerRecord,
 }
 
 /// Two bodies that began or ceased to touch.

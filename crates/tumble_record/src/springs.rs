@@ -4,7 +4,7 @@ use bevy_ecs::entity::Entity;
 use glam::DVec2;
 use tumble_sim::{Anchor, Spring};
 
-use crate::recording::{SpringEnd, SpringRecord};
+use crate::recording::{AnchorRecord, SpringRecord};
 
 /// The springs that are in the world, and where each stands in the recording.
 #[derive(Debug, Default)]
@@ -25,8 +25,8 @@ impl SpringLog {
             return;
         }
         let end = |anchor: &Anchor<DVec2>| match *anchor {
-            Anchor::World(point) => Some(SpringEnd { body: None, point }),
-            Anchor::Body(entity, point) => body_of(entity).map(|body| SpringEnd { body: Some(body), point }),
+            Anchor::World(point) => Some(AnchorRecord { body: None, point }),
+            Anchor::Body(entity, point) => body_of(entity).map(|body| AnchorRecord { body: Some(body), point }),
         };
         let before = std::mem::take(&mut self.present);
         for (entity, spring) in springs {
@@ -73,9 +73,9 @@ mod tests {
         simulation.world_mut().despawn(first);
         simulation.step()?;
         let recording = simulation.take_recording().ok_or("it was recorded")?;
-        let held = SpringEnd { body: Some(0), point: dvec2(0.1, 0.0) };
+        let held = AnchorRecord { body: Some(0), point: dvec2(0.1, 0.0) };
         let expected = |at: f64, from: u64, until: Option<u64>| SpringRecord {
-            a: SpringEnd { body: None, point: dvec2(0.0, at) },
+            a: AnchorRecord { body: None, point: dvec2(0.0, at) },
             b: held,
             rest_length: at,
             from: 0.1 * from as f64,

@@ -8,7 +8,8 @@ use std::io::{self, Write};
 
 use serde::{Deserialize, Serialize};
 
-use crate::recording::{BodyKind, Recording, TouchPhase};
+use crate::ledger::SolverEnd;
+use crate::recording::{AnchorRecord, BodyKind, Recording, TouchPhase};
 
 /// A row of `trajectory.csv`: a moving body at a sampled step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,6 +90,61 @@ pub struct AuditCsvRow {
     pub iterations: Option<u64>,
     /// What the contact solver left unsolved.
     pub residual: Option<f64>,
+    /// Largest speed at which a contact that touches still closes [m/s].
+    pub normal_violation: f64,
+    /// Largest slip of a point that sticks [m/s].
+    pub tangent_violation: f64,
+    /// Work of gravity [J].
+    pub work_gravity: f64,
+    /// Work of springs, their dampers included [J].
+    pub work_springs: f64,
+    /// Work of drag, applied forces and the user's forces [J].
+    pub work_user: f64,
+    /// Work of friction [J].
+    pub work_friction: f64,
+    /// Work along the normals of contacts [J].
+    pub work_impacts: f64,
+    /// Work of joints [J].
+    pub work_joints: f64,
+    /// Potential energy given by displacements that take out overlap [J].
+    pub work_position_correction: f64,
+    /// What moving with the velocities of the scheme gives besides [J].
+    pub integrator_defect: f64,
+    /// What no line of the books explains: round-off [J].
+    pub ledger_error: f64,
+    /// Contact points that push and stick.
+    pub sticking: u64,
+    /// Contact points that push and slide.
+    pub sliding: u64,
+    /// How the contact solver ended: `converged`, `not-converged`.
+    pub solver_end: Option<SolverEnd>,
+}
+
+/// A row of `joints.csv`: a joint at a sampled step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JointRow<'a> {
+    /// Steps taken so far.
+    pub step: u64,
+    /// Simulated time [s].
+    pub time: f64,
+    /// Name of the joint.
+    pub joint: Cow<'a, str>,
+    /// What it lets the bodies do: `revolute`, `distance`, `fixed`, `prismatic`.
+    pub kind: Cow<'a, str>,
+    /// Name of its first body; empty for the world.
+    pub a: Cow<'a, str>,
+    /// Name of its second body; empty for the world.
+    pub b: Cow<'a, str>,
+    /// Its anchor on b, horizontally [m].
+    pub x: f64,
+    /// Its anchor on b, vertically [m].
+    pub y: f64,
+    /// Force on b at the anchor along x, mean over the step [N].
+    pub fx: f64,
+    /// Force on b at the anchor along y, mean over the step [N].
+    pub fy: f64,
+    /// Torque on b about the anchor, counter-clockwise, mean over the step [N·m].
+    pub torque: f64,
 }
 
 /// A row of `touches.csv`: two bodies began or ceased to touch.
@@ -116,7 +172,7 @@ pub const CONTACT_COLUMNS: [&str; 12] =
     ["step", "time", "a", "b", "x", "y", "nx", "ny", "separation", "normal_impulse", "tangent_impulse", "kind"];
 
 /// Columns of `audit.csv`.
-pub const AUDIT_COLUMNS: [&str; 12] = [
+pub const AUDIT_COLUMNS: [&str; 26] = [
     "step",
     "time",
     "kinetic",
@@ -129,7 +185,24 @@ pub const AUDIT_COLUMNS: [&str; 12] = [
     "contacts",
     "iterations",
     "residual",
+    "normal_violation",
+    "tangent_violation",
+    "work_gravity",
+    "work_springs",
+    "work_user",
+    "work_friction",
+    "work_impacts",
+    "work_joints",
+    "work_position_correction",
+    "integrator_defect",
+    "ledger_error",
+    "sticking",
+    "sliding",
+    "solver_end",
 ];
+
+/// Columns of `joints.csv`.
+pub const JOINT_COLUMNS: [&str; 11] = ["step", "time", "joint", "kind", "a", "b", "x", "y", "fx", "fy", "torque"];
 
 /// Columns of `touches.csv`.
 pub const TOUCH_COLUMNS: [&str; 6] = ["step", "time", "a", "b", "phase", "sensor"];
@@ -183,8 +256,46 @@ pub fn write_audit(recording: &Recording, out: impl Write) -> io::Result<()> {
         contacts: row.contacts,
         iterations: row.iterations,
         residual: row.residual,
+        normal_violation: row.ledger.normal_violation,
+        tangent_violation: row.ledger.tangent_violation,
+        work_gravity: row.ledger.work_gravity,
+        work_springs: row.ledger.work_springs,
+        work_user: row.ledger.work_user,
+        work_friction: row.ledger.work_friction,
+        work_impacts: row.ledger.work_impacts,
+        work_joints: row.ledger.work_joints,
+        work_position_correction: row.ledger.work_position_correction,
+        integrator_defect: row.ledger.integrator_defect,
+        ledger_error: row.ledger.ledger_error,
+        sticking: row.ledger.sticking,
+        sliding: row.ledger.sliding,
+        solver_end: row.ledger.solver_end,
     });
     write_table(&AUDIT_COLUMNS, rows, out)
+}
+
+/// Writes `joints.csv`: one row per joint and sample.
+pub fn write_joints(recording: &Recording, out: impl Write) -> io::Result<()> {
+    let body = |anchor: &AnchorRecord| anchor.body.map_or(Cow::from(""), |body| name(recording, body));
+    let rows = recording.samples.iter().flat_map(|sample| {
+        sample.joints.iter().filter_map(move |given| {
+            let joint = recording.joints.get(given.joint)?;
+            Some(JointRow {
+                step: sample.step,
+                time: sample.time,
+                joint: Cow::from(&joint.name),
+                kind: Cow::from(&*joint.kind),
+                a: body(&joint.a),
+                b: body(&joint.b),
+                x: given.point.x,
+                y: given.point.y,
+                fx: given.force.x,
+                fy: given.force.y,
+                torque: given.torque,
+            })
+        })
+    });
+    write_table(&JOINT_COLUMNS, rows, out)
 }
 
 /// Writes `touches.csv`: one row per message of touch.

@@ -4,8 +4,8 @@ mod common;
 
 use glam::DVec2;
 use tumble_record::{
-    AuditRow, BodyKind, BodyRecord, BodyState, Channel, ChannelError, ContactRecord, Recording, Sample,
-    body_quantity_names, world_names,
+    AnchorRecord, AuditRow, BodyKind, BodyRecord, BodyState, Channel, ChannelError, ContactRecord, JointForce,
+    JointRecord, Recording, Sample, body_quantity_names, world_names,
 };
 
 fn parse(text: &str) -> Channel {
@@ -50,7 +50,7 @@ fn sliding_block(block_first: bool) -> Recording {
     } else {
         (vec![floor, block], vec![resting, moving])
     };
-    let sample = Sample { step: 1, time: 0.5, states, contacts: vec![contact.clone(), contact] };
+    let sample = Sample { step: 1, time: 0.5, states, contacts: vec![contact.clone(), contact], joints: Vec::new() };
     let audit =
         AuditRow { step: 1, time: 0.5, kinetic: 26.0, iterations: None, residual: Some(1e-9), ..AuditRow::default() };
     Recording { dt: 0.5, bodies, samples: vec![sample], audit: vec![audit], ..Recording::default() }
@@ -130,7 +130,8 @@ fn unknown_channel_lists_the_allowed_names_and_the_nearest() {
         error("omeg:block").to_string(),
         "unknown channel `omeg` (did you mean `omega`?); of the world: kinetic, potential, total, momentum_x, momentum_y, \
          angular_momentum, deepest_overlap, contacts, iterations, residual; of a body (NAME:BODY): x, y, angle, vx, vy, \
-         omega, speed, kinetic, normal_force, friction_force, contacts"
+         omega, speed, kinetic, normal_force, friction_force, contacts; of a joint (NAME:JOINT): joint_force, \
+         joint_force_x, joint_force_y, joint_torque"
     );
     assert!(matches!(error("zebra"), ChannelError::UnknownName { suggestion: None, .. }));
     assert!(matches!(error(""), ChannelError::UnknownName { .. }));
@@ -144,20 +145,22 @@ fn channel_of_the_world_takes_no_body() {
 
 #[test]
 fn unknown_body_lists_the_bodies_and_the_nearest() {
-    let error = parse("y:blok").check(&sliding_block(true).bodies).expect_err("no such body");
+    let error = parse("y:blok").check(&sliding_block(true)).expect_err("no such body");
     assert_eq!(
         error.to_string(),
         "channel `y:blok`: there is no body `blok` (did you mean `block`?); bodies: block, floor"
     );
-    assert!(parse("y:floor").check(&sliding_block(true).bodies).is_ok(), "a static body has values too");
+    assert!(parse("y:floor").check(&sliding_block(true)).is_ok(), "a static body has values too");
 }
 
 #[test]
 fn too_many_curves_are_refused() {
-    let bodies: Vec<BodyRecord> = (0..13).map(|id| body(id, &format!("crate-{id}"), BodyKind::Dynamic)).collect();
-    assert!(parse("y").check(&bodies[..12]).is_ok());
-    let message = parse("y").check(&bodies).expect_err("too many").to_string();
+    let bodies = (0..13).map(|id| body(id, &format!("crate-{id}"), BodyKind::Dynamic)).collect();
+    let mut recording = Recording { bodies, ..Recording::default() };
+    let message = parse("y").check(&recording).expect_err("too many").to_string();
     assert!(message.starts_with("channel `y` would show 13 bodies, at most 12 fit: name one as `y:BODY`"), "{message}");
+    recording.bodies.pop();
+    assert!(parse("y").check(&recording).is_ok());
 }
 
 #[test]
@@ -169,4 +172,42 @@ fn file_names_are_safe_and_distinct() {
         assert!(stem.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"._-".contains(&byte)), "{stem}");
         assert!(!stems[..index].contains(stem), "{stem} twice");
     }
+}
+
+#[test]
+fn forces_of_joints_are_curves_from_the_first_step_on() {
+    let end = AnchorRecord { body: None, point: DVec2::ZERO };
+    let joint = |name: &str| JointRecord {
+        name: name.to_owned(),
+        kind: "fixed".into(),
+        a: end,
+        b: end,
+        axis: None,
+        from: 0.0,
+        until: None,
+    };
+    let given = |joint, x| JointForce { joint, point: DVec2::ZERO, force: DVec2::new(x, -4.0), torque: 7.0 };
+    let sample = |step: u64, x| Sample {
+        step,
+        time: 0.5 * step as f64,
+        joints: vec![given(0, 0.0), given(1, x)],
+        ..Sample::default()
+    };
+    let samples = vec![sample(0, 9.0), sample(1, 3.0), sample(2, -3.0)];
+    let recording = Recording { joints: vec![joint("pin"), joint("weld")], samples, ..Recording::default() };
+    let values = |text: &str| parse(text).series(&recording).expect("the joint exists")[0].values.clone();
+    assert_eq!(values("joint_force:weld"), [5.0, 5.0]);
+    assert_eq!(values("joint_force_x:weld"), [3.0, -3.0]);
+    assert_eq!(values("joint_force_y:pin"), [-4.0, -4.0]);
+    assert_eq!(values("joint_torque:pin"), [7.0, 7.0]);
+    let every = parse("joint_force").series(&recording).expect("two joints");
+    assert_eq!(every.iter().map(|series| &*series.label).collect::<Vec<_>>(), ["pin", "weld"]);
+    assert_eq!(parse("joint_force:weld").file_stem(), "joint_force-weld");
+    let error = parse("joint_force:wled").check(&recording).expect_err("no such joint");
+    assert_eq!(
+        error.to_string(),
+        "channel `joint_force:wled`: there is no joint `wled` (did you mean `weld`?); joints: pin, weld"
+    );
+    let error = parse("joint_torque").check(&Recording::default()).expect_err("no joints");
+    assert!(matches!(error, ChannelError::NotSoManyJoints { .. }));
 }

@@ -108,6 +108,7 @@ fn crowd(samples: usize, bodies: usize, contacts: usize) -> Recording {
             time: index as f64 * 0.01,
             states: vec![Some(BodyState::default()); bodies],
             contacts: vec![contact.clone(); contacts],
+            joints: Vec::new(),
         })
         .collect();
     recording

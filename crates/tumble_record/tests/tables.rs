@@ -10,7 +10,10 @@ use tumble_record::tables::{
     AUDIT_COLUMNS, AuditCsvRow, CONTACT_COLUMNS, ContactRow, TOUCH_COLUMNS, TRAJECTORY_COLUMNS, TouchRow,
     TrajectoryRow, write_audit, write_contacts, write_touches, write_trajectory,
 };
-use tumble_record::{AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Recording, Sample, Touch, TouchPhase};
+use tumble_record::{
+    AnchorRecord, AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, JointForce, JointRecord, LedgerRecord,
+    Recording, Sample, SolverEnd, Touch, TouchPhase,
+};
 
 fn body(id: u64, name: &str, kind: BodyKind) -> BodyRecord {
     BodyRecord { id, name: name.to_owned(), kind, mass: 1.0, inertia: 1.0, shapes: Vec::new() }
@@ -23,6 +26,13 @@ fn state(numbers: [f64; 6]) -> Option<BodyState> {
 
 fn recording(name: &str, numbers: [f64; 6]) -> Recording {
     let [x, y, angle, ..] = numbers;
+    let ledger = LedgerRecord {
+        work_joints: x,
+        ledger_error: angle,
+        sticking: 3,
+        solver_end: Some(SolverEnd::NotConverged),
+        ..LedgerRecord::default()
+    };
     Recording {
         dt: 0.01,
         bodies: vec![
@@ -44,8 +54,18 @@ fn recording(name: &str, numbers: [f64; 6]) -> Recording {
                 tangent_impulse: -0.0,
                 kind: Cow::Borrowed("rod_end_on_half_plane"),
             }],
+            joints: vec![JointForce { joint: 0, point: DVec2::new(y, x), force: DVec2::new(angle, x), torque: y }],
         }],
-        audit: vec![AuditRow { step: 5, time: x, kinetic: y, residual: Some(angle), ..AuditRow::default() }],
+        joints: vec![JointRecord {
+            name: name.to_owned(),
+            kind: Cow::Borrowed("fixed"),
+            a: AnchorRecord { body: None, point: DVec2::ZERO },
+            b: AnchorRecord { body: Some(0), point: DVec2::ZERO },
+            axis: None,
+            from: 0.0,
+            until: None,
+        }],
+        audit: vec![AuditRow { step: 5, time: x, kinetic: y, residual: Some(angle), ledger, ..AuditRow::default() }],
         touches: vec![Touch { step: 5, time: x, a: 0, b: 1, phase: TouchPhase::Begin, sensor: true }],
         ..Recording::default()
     }

@@ -10,16 +10,18 @@ use tumble_math::{Planar, PlanarRotation};
 use tumble_shape::ShapeError;
 use tumble_sim::{
     Amount, Anchor, AppliedForce, BodyId, CentreOverride, Course, GravityScale, IgnoredPairs, ImpulseSettings,
-    InertiaOverride, Keyframe, Keyframes, LinearDrag, LinearVelocity, Lock, LockedAxes, MassOverride, MaterialId,
-    Orientation, Part, PenaltySettings, Pinned, Position, QuadraticDrag, Response, Settings, Simulation, Spring,
-    SpringDamperSettings, StepError, VelocityLcpSettings,
+    InertiaOverride, Joint, Keyframe, Keyframes, LinearDrag, LinearVelocity, Lock, LockedAxes, MassOverride,
+    MaterialId, Orientation, Part, PenaltySettings, Pinned, Position, QuadraticDrag, Response, Settings, Simulation,
+    Spring, SpringDamperSettings, StepError, VelocityLcpSettings,
 };
 use tumble_solver::{Surface, velocity_lcp};
 
 use crate::check::remember;
 use crate::diagnostics::Diagnostics;
 use crate::expand::ExpandedBody;
-use crate::format::{AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Groups, Scene, SpringEntry};
+use crate::format::{
+    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Groups, JointEntry, JointKind, Scene, SpringEntry,
+};
 use crate::format::{
     ImpulseEntry, Integrator, PenaltyEntry, PenaltyLaw, RestitutionLaw, VelocityLcpEntry, VelocitySolver,
 };
@@ -42,7 +44,7 @@ pub enum BuildError {
         /// What is wrong.
         source: ShapeError,
     },
-    /// A spring or a force is about a body that is not there.
+    /// A spring, a joint or a force is about a body that is not there.
     #[error("no body is named \"{0}\"")]
     UnknownBody(String),
     /// A body cannot be simulated.
@@ -100,7 +102,7 @@ impl FromScene for Simulation<Planar> {
             add_body(&mut simulation, BodyId(id as u64), &body.body, &ids, &groups)?;
         }
         ignore_pairs(&mut simulation, &bodies);
-        // Springs and forces hold on to centres of mass, which exist once the bodies are prepared.
+        // Springs, joints and forces hold on to centres of mass, which exist once the bodies are prepared.
         simulation.prepare()?;
         for spring in &scene.springs {
             add_spring(&mut simulation, spring)?;
@@ -108,6 +110,7 @@ impl FromScene for Simulation<Planar> {
         for force in &scene.forces {
             add_force(&mut simulation, force)?;
         }
+        add_joints(&mut simulation, &scene.joints)?;
         simulation.prepare()?;
         remember(&mut simulation, scene);
         Ok(simulation)
@@ -297,8 +300,8 @@ fn add_options(simulation: &mut Simulation, entity: Entity, body: &BodyEntry) {
     if body.gravity_scale != 1.0 {
         entity.insert(GravityScale(body.gravity_scale));
     }
-    if body.drag.linear != 0.0 {
-        entity.insert(LinearDrag { translation: body.drag.linear, rotation: 0.0 });
+    if body.drag.linear != 0.0 || body.drag.turning != 0.0 {
+        entity.insert(LinearDrag { translation: body.drag.linear, rotation: body.drag.turning });
     }
     if body.drag.quadratic != 0.0 {
         entity.insert(QuadraticDrag { translation: body.drag.quadratic, rotation: 0.0 });
@@ -346,6 +349,29 @@ fn add_spring(simulation: &mut Simulation, entry: &SpringEntry) -> Result<(), Bu
         rest_length: entry.rest_length.unwrap_or_else(|| from.distance(to)),
     });
     Ok(())
+}
+
+fn add_joints(simulation: &mut Simulation, entries: &[JointEntry]) -> Result<(), BuildError> {
+    // All anchors before the first joint: a joint may have the name of a body.
+    let joints: Result<Vec<_>, BuildError> = entries.iter().map(|entry| joint(simulation, entry)).collect();
+    for (joint, entry) in joints?.into_iter().zip(entries) {
+        simulation.spawn((Name::new(entry.name.clone()), joint));
+    }
+    Ok(())
+}
+
+fn joint(simulation: &Simulation, entry: &JointEntry) -> Result<Joint<DVec2>, BuildError> {
+    let (a, at_a) = anchor(simulation, &entry.a)?;
+    let (b, at_b) = anchor(simulation, &entry.b)?;
+    let kind = match entry.kind {
+        JointKind::Revolute => tumble_sim::JointKind::Revolute,
+        JointKind::Distance { length } => {
+            tumble_sim::JointKind::Distance { length: length.unwrap_or_else(|| at_a.distance(at_b)) }
+        }
+        JointKind::Fixed => tumble_sim::JointKind::Fixed,
+        JointKind::Prismatic { axis } => tumble_sim::JointKind::Prismatic { axis },
+    };
+    Ok(Joint { a, b, kind })
 }
 
 /// The anchor, and where it is at the start in world axes [m].

@@ -56,7 +56,7 @@ impl Salvage {
             };
             fields.insert(&name.text, text);
         }
-        lost_names |= ["bodies", "pairs", "materials_from"].iter().any(|list| kept.contains_key(*list));
+        lost_names |= ["bodies", "joints", "pairs", "materials_from"].iter().any(|list| kept.contains_key(*list));
         let text: String = fields.iter().map(|(name, value)| format!("{name}: {value},\n")).collect();
         let scene = text::read(&format!("({text})")).ok()?;
         Some(Self { scene, kept, lost_names })

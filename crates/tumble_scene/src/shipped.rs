@@ -25,7 +25,9 @@ pub const SHIPPED: &[Shipped] = shipped![
     "bouncing_rod",
     "box_stack",
     "dominoes",
+    "double_pendulum",
     "drag_terminal_velocity",
+    "hanging_chain",
     "head_on",
     "homework_rods",
     "homework_rods_impulse",
@@ -35,6 +37,7 @@ pub const SHIPPED: &[Shipped] = shipped![
     "rod_hits_floor_at_angle",
     "rod_pile",
     "rolling_disc",
+    "slider_crank",
     "spring_pendulum",
     "stopping_distance",
 ];

@@ -21,24 +21,27 @@ use glam::DVec2;
 use thiserror::Error;
 use tumble_math::{Planar, PlanarRotation, Rotation};
 use tumble_shape::PlanarShape;
+use tumble_sim::joint::JointEntry as JointInTable;
 use tumble_sim::{
     Amount, Anchor, AppliedForce, BodyIndex, BodyTable, BodyView, CentreOverride, GravityScale, IgnoredPairs,
-    ImpulseSettings, InertiaOverride, Keyframes, LinearDrag, Lock, LockedAxes, MassOverride, MaterialId, Materials,
-    Parts, PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings,
-    StepError,
+    ImpulseSettings, InertiaOverride, Joint, JointTable, Keyframes, LinearDrag, Lock, LockedAxes, MassOverride,
+    MaterialId, Materials, Parts, PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, Spring,
+    SpringDamperSettings, StepError,
 };
 use tumble_solver::{Surface, velocity_lcp};
 
 use crate::check::Promises;
 use crate::format::{
-    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, DiscPart, Drag, ForceEntry, FrictionEntry, Groups, HalfPlanePart,
-    ImpulseEntry, Integrator, Keyframe, MaterialEntry, ModelEntries, PairEntry, Part, PenaltyEntry, PenaltyLaw,
-    PolygonPart, RestitutionLaw, RodPart, Scene, SpringEntry, VelocityLcpEntry, VelocitySolver,
+    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, DiscPart, Drag, Expectation, ForceEntry, FrictionEntry, Groups,
+    HalfPlanePart, ImpulseEntry, Integrator, JointEntry, JointKind, Keyframe, MaterialEntry, ModelEntries, PairEntry,
+    Part, PenaltyEntry, PenaltyLaw, PolygonPart, RestitutionLaw, RodPart, Scene, SpringEntry, VelocityLcpEntry,
+    VelocitySolver,
 };
 use crate::initial_overlaps;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
+use crate::validate::open_joints;
 use exact::{before_normalization, before_shift, degrees};
-use names::bodies_named;
+use names::{bodies_named, joint_named};
 
 /// A simulation written as a scene.
 pub trait ToScene {
@@ -90,10 +93,17 @@ impl ToScene for Simulation<Planar> {
         scene.bodies = bodies(self)?;
         write_materials(self, &mut scene);
         scene.springs = springs.iter().filter_map(|spring| spring_entry(self, spring)).collect();
+        scene.joints = joint_entries(self);
+        for open in open_joints(&scene) {
+            scene.joints[open].allow_gap = true;
+        }
         scene.forces = forces.iter().filter_map(|force| force_entry(self, force)).collect();
         let promised = promises.scene.into_iter().flat_map(|scene| scene.expect).chain(promises.added);
         let is_there = |name: &str| scene.bodies.iter().any(|body| body.name == name);
-        scene.expect = promised.filter(|e| bodies_named(e).into_iter().all(is_there)).collect();
+        let is_joint = |name: &str| scene.joints.iter().any(|joint| joint.name == name);
+        let can_be_told =
+            |e: &Expectation| bodies_named(e).into_iter().all(is_there) && joint_named(e).is_none_or(is_joint);
+        scene.expect = promised.filter(can_be_told).collect();
         // What cannot be looked at cannot overlap either; building the scene will tell what is wrong.
         scene.allow_overlap =
             initial_overlaps(&scene, &MaterialLibrary::of_scene(&scene)).is_ok_and(|overlaps| !overlaps.is_empty());
@@ -248,8 +258,8 @@ fn body(simulation: &Simulation, view: &BodyView<Planar>, name: &str) -> Result<
     let shift = view.rotation().rotate(centre);
     let linear = entity.get::<LinearDrag>().copied().unwrap_or_default();
     let quadratic = entity.get::<QuadraticDrag>().copied().unwrap_or_default();
-    if linear.rotation != 0.0 || quadratic.rotation != 0.0 {
-        return Err(UnwritableError::Body { body: name.to_owned(), what: "drag against rotation" });
+    if quadratic.rotation != 0.0 {
+        return Err(UnwritableError::Body { body: name.to_owned(), what: "quadratic drag against rotation" });
     }
     let mut body = BodyEntry {
         name: name.to_owned(),
@@ -266,7 +276,7 @@ fn body(simulation: &Simulation, view: &BodyView<Planar>, name: &str) -> Result<
         centre: entity.get::<CentreOverride<DVec2>>().map(|centre| centre.0),
         inertia: entity.get::<InertiaOverride<f64>>().map(|inertia| inertia.0),
         gravity_scale: entity.get::<GravityScale>().map_or(1.0, |scale| scale.0),
-        drag: Drag { linear: linear.translation, quadratic: quadratic.translation },
+        drag: Drag { linear: linear.translation, quadratic: quadratic.translation, turning: linear.rotation },
         pinned: entity.contains::<Pinned>(),
         locked: entity.get::<LockedAxes<DVec2>>().map(locked_axes).unwrap_or_default(),
         ..BodyEntry::default()
@@ -359,20 +369,42 @@ fn part_entry(part: &tumble_sim::Part<Planar>, options: PartOptions) -> Part {
 
 /// `None` if a body that it holds is gone, and the spring does nothing.
 fn spring_entry(simulation: &Simulation, spring: &Spring<DVec2>) -> Option<SpringEntry> {
-    let anchor = |anchor: &Anchor<DVec2>| match *anchor {
-        Anchor::World(point) => Some(AnchorEntry::World { point }),
-        Anchor::Body(entity, point) => {
-            let body = body_of(simulation, entity)?;
-            Some(AnchorEntry::Body { name: body.0.to_owned(), point: design_point(&body.1, point) })
-        }
-    };
     Some(SpringEntry {
-        from: anchor(&spring.a)?,
-        to: anchor(&spring.b)?,
+        from: anchor_entry(simulation, &spring.a)?,
+        to: anchor_entry(simulation, &spring.b)?,
         stiffness: spring.stiffness,
         damping: spring.damping,
         rest_length: Some(spring.rest_length),
     })
+}
+
+/// Every joint, in the order of the table; joints cannot hold bodies that are gone.
+fn joint_entries(simulation: &Simulation) -> Vec<JointEntry> {
+    let world = simulation.world();
+    let entries = world.resource::<JointTable<Planar>>().entries().iter();
+    let entry = |entry: &JointInTable<Planar>| {
+        let joint = world.get::<Joint<DVec2>>(entry.entity)?;
+        let (a, b) = (anchor_entry(simulation, &joint.a)?, anchor_entry(simulation, &joint.b)?);
+        let kind = match joint.kind {
+            tumble_sim::JointKind::Revolute => JointKind::Revolute,
+            tumble_sim::JointKind::Distance { length } => JointKind::Distance { length: Some(length) },
+            tumble_sim::JointKind::Fixed => JointKind::Fixed,
+            tumble_sim::JointKind::Prismatic { axis } => JointKind::Prismatic { axis },
+        };
+        Some(JointEntry { name: entry.name.clone(), kind, a, b, allow_gap: false })
+    };
+    entries.filter_map(entry).collect()
+}
+
+/// `None` if its body is gone.
+fn anchor_entry(simulation: &Simulation, anchor: &Anchor<DVec2>) -> Option<AnchorEntry> {
+    match *anchor {
+        Anchor::World(point) => Some(AnchorEntry::World { point }),
+        Anchor::Body(entity, point) => {
+            let (name, body) = body_of(simulation, entity)?;
+            Some(AnchorEntry::Body { name: name.to_owned(), point: design_point(&body, point) })
+        }
+    }
 }
 
 /// `None` if its body is gone, and the force does nothing.

@@ -202,7 +202,7 @@ fn body() -> impl Strategy<Value = BodyEntry> {
             mass,
             pinned: flag,
             locked: if flag { vec![Axis::Angle, Axis::Y] } else { Vec::new() },
-            drag: Drag { linear: angle_degrees, quadratic: 0.0 },
+            drag: Drag { linear: angle_degrees, quadratic: 0.0, turning: 0.0 },
             keyframes: if flag { vec![Keyframe { time: 1.0, at, angle_degrees }] } else { Vec::new() },
             repeat,
             ..BodyEntry::default()
@@ -231,6 +231,7 @@ fn scene() -> impl Strategy<Value = Scene> {
                 models: ModelEntries {
                     penalty: PenaltyEntry { law: PenaltyLaw::Lecture, stiffness: slop, ..PenaltyEntry::default() },
                     impulse: ImpulseEntry { iterations: Some(7), ..ImpulseEntry::default() },
+                    ..ModelEntries::default()
                 },
                 surface: if flag { Surface::Lubricated } else { Surface::Dry },
                 take: if flag { Take::High } else { Take::Low },

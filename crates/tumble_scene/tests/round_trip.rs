@@ -11,7 +11,7 @@ use tumble_scene::format::{
 };
 use tumble_scene::shipped::SHIPPED;
 use tumble_scene::{Check, FromScene, ToScene, UnwritableError};
-use tumble_sim::{LinearDrag, Orientation, Position, Settings, Simulation};
+use tumble_sim::{Orientation, Position, QuadraticDrag, Settings, Simulation};
 
 /// The state after some steps, or where and why the run failed.
 fn state_after(steps: u32, simulation: &mut Simulation) -> Result<Fingerprint, String> {
@@ -89,16 +89,44 @@ fn bodies_that_overlap_at_the_start_may_do_so_in_the_scene() -> Result<(), Box<d
 }
 
 #[test]
+fn joints_come_back_bit_for_bit() -> Result<(), Box<dyn std::error::Error>> {
+    // The names of joints sort against their order, one is that of a body, and one is open.
+    let text = r#"(
+        format: 1, duration: 1,
+        bodies: [
+            (name: "arm", at: (0.1, 0.3), angle_degrees: 17, parts: [Rod(from: (0, 0), to: (1, 0))]),
+            (name: "bob", at: (2.3, 0.7), angular_velocity: 2, parts: [Disc(at: (0.1, 0.2), radius: 0.3)]),
+            (name: "cart", at: (5, 1), velocity: (1, 0), parts: [Box(size: (1, 0.5))]),
+            (name: "deck", at: (5, 1.25), parts: [Box(size: (0.4, 0.5))]),
+        ],
+        joints: [
+            (name: "z", kind: Revolute, a: World(point: (0.1, 0.3)), b: Body(name: "arm", point: (0, 0))),
+            (name: "bob", kind: Distance(), a: Body(name: "bob", point: (0, 0.1)), b: Body(name: "arm", point: (1, 0))),
+            (name: "y", kind: Prismatic(axis: (3, 0)), a: World(point: (0, 1.1)), b: Body(name: "cart"), allow_gap: true),
+            (name: "x", kind: Fixed, a: Body(name: "cart", point: (0, 0.25)), b: Body(name: "deck", point: (0, 0))),
+        ],
+    )"#;
+    let mut simulation = Simulation::from_loaded(&Scene::parse(text, "joints.ron")?)?;
+    let written = simulation.to_scene()?;
+    let open: Vec<&str> = written.joints.iter().filter(|joint| joint.allow_gap).map(|joint| &*joint.name).collect();
+    assert_eq!((written.joints.len(), open), (4, vec!["y"]));
+    Ok(same_bits_after_a_round_trip(simulation)?)
+}
+
+#[test]
 fn what_scenes_have_no_word_for_is_refused() {
     let mut simulation = Simulation::new(Settings { speculative_limit: Some(3.0), ..Settings::default() });
     assert_eq!(simulation.to_scene(), Err(UnwritableError::Setting("speculative_limit")));
     let mut simulation = Simulation::new(Settings::default());
-    let drag = LinearDrag { translation: 0.0, rotation: 1.0 };
+    let drag = QuadraticDrag { translation: 0.0, rotation: 1.0 };
     let body = simulation.spawn((Position(DVec2::ZERO), Orientation::<tumble_math::PlanarRotation>::default(), drag));
     let disc = tumble_shape::Disc::try_new(DVec2::ZERO, 0.5).expect("a disc");
     simulation.attach(body, tumble_sim::Part::new(disc, tumble_sim::Amount::Density(1.0)));
     let refusal = simulation.to_scene().expect_err("there is no word for it");
-    assert_eq!(refusal.to_string(), "body \"body-0\" has drag against rotation, which cannot be written in a scene");
+    assert_eq!(
+        refusal.to_string(),
+        "body \"body-0\" has quadratic drag against rotation, which cannot be written in a scene"
+    );
 }
 
 fn vector(size: f64) -> impl Strategy<Value = DVec2> {
@@ -171,7 +199,11 @@ fn body(index: usize) -> impl Strategy<Value = BodyEntry> {
                 centre,
                 inertia,
                 gravity_scale: scale.unwrap_or(1.0),
-                drag: Drag { linear: linear.unwrap_or(0.0), quadratic: quadratic.unwrap_or(0.0) },
+                drag: Drag {
+                    linear: linear.unwrap_or(0.0),
+                    quadratic: quadratic.unwrap_or(0.0),
+                    turning: 0.1 * linear.unwrap_or(0.0),
+                },
                 pinned,
                 locked,
                 ..BodyEntry::default()
@@ -242,6 +274,7 @@ fn scene() -> impl Strategy<Value = Scene> {
                         ..PenaltyEntry::default()
                     },
                     impulse: ImpulseEntry { iterations, ..ImpulseEntry::default() },
+                    ..ModelEntries::default()
                 },
                 allow_overlap: true,
                 materials: [("mine".to_owned(), mine), ("rubber".to_owned(), bouncy)].into(),

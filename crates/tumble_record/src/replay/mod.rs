@@ -13,7 +13,7 @@ use std::io::{self, Write};
 use glam::DVec2;
 use serde::Serialize;
 
-use crate::recording::{AuditRow, BodyKind, BodyRecord, Recording, Sample, ShapeRecord, SpringRecord};
+use crate::recording::{AuditRow, BodyKind, BodyRecord, JointRecord, Recording, Sample, ShapeRecord, SpringRecord};
 use crate::thin::keep_extremes;
 use encode::{floats, words};
 
@@ -53,6 +53,7 @@ struct Data<'a> {
     dt: f64,
     bodies: Vec<Body<'a>>,
     springs: &'a [SpringRecord],
+    joints: &'a [JointRecord],
     /// Number of samples before thinning.
     recorded_samples: usize,
     steps: Vec<u64>,
@@ -100,6 +101,7 @@ impl<'a> Data<'a> {
             dt: recording.dt,
             bodies: recording.bodies.iter().map(Body::new).collect(),
             springs: &recording.springs,
+            joints: &recording.joints,
             recorded_samples: recording.samples.len(),
             steps: samples.iter().map(|sample| sample.step).collect(),
             times: samples.iter().map(|sample| sample.time).collect(),

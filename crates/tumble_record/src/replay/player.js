@@ -38,6 +38,7 @@ if (recording.times.length < recording.recorded_samples) {
 }
 
 element("springs-choice").hidden = recording.springs.length === 0;
+element("joints-choice").hidden = recording.joints.length === 0;
 
 /** Goes to a time; contacts are those of the sample there, or of the strongest one passed on the way. */
 function goTo(time, { passing = false } = {}) {
@@ -110,6 +111,7 @@ function draw() {
     forces: element("show-forces").checked,
     contacts: element("show-contacts").checked,
     springs: element("show-springs").checked,
+    joints: element("show-joints").checked,
     names: element("show-names").checked,
     trails: element("show-trails").checked,
     arrowScale: 10 ** Number(element("arrow-scale").value),
@@ -158,7 +160,7 @@ element("slider").addEventListener("input", (event) => {
   pause();
   goTo(firstTime + Number(event.target.value) * (lastTime - firstTime));
 });
-for (const id of ["show-forces", "show-contacts", "show-springs", "show-names", "show-trails", "arrow-scale"]) {
+for (const id of ["show-forces", "show-contacts", "show-springs", "show-joints", "show-names", "show-trails", "arrow-scale"]) {
   element(id).addEventListener("input", redraw);
 }
 document.addEventListener("keydown", (event) => {

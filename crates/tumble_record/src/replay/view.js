@@ -26,7 +26,7 @@ class View {
       }
     });
     const startXs = [], startYs = [];
-    for (const { body, point: [x, y] } of recording.springs.flatMap(({ a, b }) => [a, b])) {
+    for (const { body, point: [x, y] } of [...recording.springs, ...recording.joints].flatMap(({ a, b }) => [a, b])) {
       if (body === null) { startXs.push(x); startYs.push(y); }
     }
     const stride = Math.max(1, Math.floor((bodies.length * times.length) / 50000));
@@ -84,6 +84,7 @@ class View {
       recording.bodies.forEach((body, index) => { if (body.kind === kind) this.drawBody(body, index); });
     }
     if (options.springs) this.drawSprings(time);
+    if (options.joints) this.drawJoints(time);
     if (options.names) this.drawNames();
     const contacts = recording.times.length ? contactsOf(sample) : [];
     if (options.contacts) this.drawContacts(contacts);
@@ -215,7 +216,7 @@ class View {
     context.lineWidth = 1.5;
     for (const { a, b, rest_length, from, until } of recording.springs) {
       // An end held by a body that is not in the world is nowhere.
-      const ends = [a, b].map((end) => this.endOfSpring(end));
+      const ends = [a, b].map((end) => this.anchorOnScreen(end));
       if (time < from || time >= (until ?? Infinity) || !ends.flat().every(Number.isFinite)) continue;
       const [[ax, ay], [bx, by]] = ends;
       const length = Math.hypot(bx - ax, by - ay), wide = Math.min(.06 * rest_length * camera.scale, 7);
@@ -240,8 +241,48 @@ class View {
     }
   }
 
-  /** Where the end of a spring is, in pixels. */
-  endOfSpring({ body, point: [x, y] }) {
+  /** Pins as rings, massless rods as lines with a ring at each end, welds as squares, guides as bars along their axis. */
+  drawJoints(time) {
+    const { context } = this;
+    context.strokeStyle = color("--spring");
+    context.fillStyle = color("--canvas");
+    context.lineWidth = 1.8;
+    for (const { kind, a, b, axis, from, until } of recording.joints) {
+      const ends = [a, b].map((anchor) => this.anchorOnScreen(anchor));
+      if (time < from || time >= (until ?? Infinity) || !ends.flat().every(Number.isFinite)) continue;
+      const [[ax, ay], [bx, by]] = ends;
+      const stroke = (...points) => {
+        context.beginPath();
+        points.forEach((point) => context.lineTo(...point));
+        context.stroke();
+      };
+      const ring = ([x, y]) => {
+        context.beginPath();
+        context.arc(x, y, 4, 0, 7);
+        context.fill();
+        context.stroke();
+      };
+      if (kind === "prismatic") {
+        const pose = a.body === null ? { cos: 1, sin: 0 } : this.poses[a.body], size = Math.hypot(...axis);
+        const [ux, uy] = [(pose.cos * axis[0] - pose.sin * axis[1]) / size, -(pose.sin * axis[0] + pose.cos * axis[1]) / size];
+        const along = (bx - ax) * ux + (by - ay) * uy, low = Math.min(along, 0) - 22, high = Math.max(along, 0) + 22;
+        for (const aside of [-5, 5]) {
+          stroke([ax + ux * low - uy * aside, ay + uy * low + ux * aside], [ax + ux * high - uy * aside, ay + uy * high + ux * aside]);
+        }
+      } else if (kind === "fixed") {
+        context.beginPath();
+        context.rect(bx - 4, by - 4, 8, 8);
+        context.fill();
+        context.stroke();
+      } else {
+        if (kind === "distance") stroke([ax, ay], [bx, by]);
+        ends.slice(kind === "distance" ? 0 : 1).forEach(ring);
+      }
+    }
+  }
+
+  /** Where a spring or a joint is held, in pixels. */
+  anchorOnScreen({ body, point: [x, y] }) {
     const pose = body === null ? { x: 0, y: 0, cos: 1, sin: 0 } : this.poses[body];
     return this.toScreen(pose.x + pose.cos * x - pose.sin * y, pose.y + pose.sin * x + pose.cos * y);
   }

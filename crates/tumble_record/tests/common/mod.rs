@@ -9,7 +9,7 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 use tumble_record::{
-    AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, SpringEnd,
+    AnchorRecord, AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord,
     SpringRecord, Touch, TouchPhase,
 };
 
@@ -34,12 +34,12 @@ fn body(id: u64, name: &str, kind: BodyKind, shapes: Vec<ShapeRecord>) -> BodyRe
     BodyRecord { id, name: name.to_owned(), kind, mass: 1.0, inertia: 0.12, shapes }
 }
 
-fn end_of(body: usize) -> SpringEnd {
-    SpringEnd { body: Some(body), point: DVec2::ZERO }
+fn end_of(body: usize) -> AnchorRecord {
+    AnchorRecord { body: Some(body), point: DVec2::ZERO }
 }
 
 /// A spring for the eye: it pulls nobody.
-fn spring(a: SpringEnd, body: usize) -> SpringRecord {
+fn spring(a: AnchorRecord, body: usize) -> SpringRecord {
     SpringRecord { a, b: end_of(body), rest_length: 1.0, from: 0.0, until: None }
 }
 
@@ -96,7 +96,7 @@ pub fn falling_rods(seconds: f64, every: u64) -> Recording {
         dt: DT,
         length_scale: 1.0,
         bodies,
-        springs: vec![spring(SpringEnd { body: None, point: DVec2::new(0.0, 4.0) }, 0), spring(end_of(2), 4)],
+        springs: vec![spring(AnchorRecord { body: None, point: DVec2::new(0.0, 4.0) }, 0), spring(end_of(2), 4)],
         ..Recording::default()
     };
     let mut touched = false;
@@ -111,7 +111,8 @@ pub fn falling_rods(seconds: f64, every: u64) -> Recording {
             recording.touches.push(Touch { step, time, a, b, phase: TouchPhase::Begin, sensor: false });
         }
         if step % every == 0 || step == steps {
-            recording.samples.push(Sample { step, time, states: states.iter().copied().map(Some).collect(), contacts });
+            let states = states.iter().copied().map(Some).collect();
+            recording.samples.push(Sample { step, time, states, contacts, ..Sample::default() });
         }
     }
     recording

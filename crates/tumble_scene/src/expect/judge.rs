@@ -1,6 +1,6 @@
 //! Comparing what was measured with what is right.
 
-use super::{Expected, Finding, Measured, Near};
+use super::{Expected, Finding, Measured, Near, Outcome};
 
 /// How far a measurement is from being wrong, or beyond it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +25,28 @@ impl Judgement {
     /// Whether the other is wrong and this is not, or else has the greater badness.
     fn is_better_than(self, other: Self) -> bool {
         (self.holds && !other.holds) || (self.holds == other.holds && self.badness < other.badness)
+    }
+}
+
+impl Outcome {
+    /// How much of its tolerance what was measured uses: 1 at the limit, more if it failed. None where nothing was measured, or no
+    /// tolerance is given [1].
+    pub fn ratio(&self) -> Option<f64> {
+        let part = |distance: f64, within: f64| if distance == 0.0 { 0.0 } else { distance / within };
+        match (self.expected.as_ref()?, self.measured.as_ref()?) {
+            (Expected::Number { near: Some(near), .. }, Measured::Number(number)) => {
+                Some(part((number - near.is).abs(), near.within))
+            }
+            (Expected::AtMost(bound), Measured::Number(number)) => Some(part(number.max(0.0), *bound)),
+            (Expected::Vector { is, within }, Measured::Vector(vector)) => {
+                Some(part((*vector - *is).length(), *within))
+            }
+            (Expected::Rest { speed_below, turn_below, drift_below }, Measured::Rest { speed, turn, drift }) => {
+                let drift = drift_below.map_or(0.0, |below| part(*drift, below));
+                Some(part(*speed, *speed_below).max(part(*turn, *turn_below)).max(drift))
+            }
+            _ => None,
+        }
     }
 }
 

@@ -19,6 +19,7 @@
 
 mod event;
 mod force;
+mod joint;
 mod judge;
 mod print;
 mod state;
@@ -88,6 +89,7 @@ fn expected(expectation: &Expectation) -> Option<Expected> {
         Expectation::Depth(e) => e.into(),
         Expectation::ContactForceSum(e) => return force::expected(e),
         Expectation::FrictionForce(e) => Expected::near(e.is, e.within),
+        Expectation::JointForce(e) => e.into(),
         Expectation::Order(_) => Expected::Order,
         Expectation::Happens(e) => Expected::near(e.at, e.within),
         Expectation::Never(_) => Expected::Never,
@@ -165,6 +167,7 @@ impl<'r> Run<'r> {
             Expectation::Depth(e) => self.depth(e, when),
             Expectation::ContactForceSum(e) => self.contact_force_sum(e, when),
             Expectation::FrictionForce(e) => self.friction_force(e, when),
+            Expectation::JointForce(e) => self.joint_force(e, when),
             Expectation::Order(e) => self.order(&e.events),
             Expectation::Happens(e) => self.happens(e),
             Expectation::Never(e) => self.never(&e.event),

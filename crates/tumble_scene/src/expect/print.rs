@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::judge::Judgement;
 use super::{Expected, Measured, Near, Outcome, Status, Verdict};
-use crate::format::{Event, Expectation, When};
+use crate::format::{Event, Expectation, JointForcePart, When};
 
 /// Parts of a tolerance that printed digits show [1].
 const TOLERANCE_PARTS: f64 = 100.0;
@@ -37,6 +37,7 @@ pub(super) fn title(expectation: &Expectation) -> String {
         Expectation::Depth(_) => format!("{name} {moment}"),
         Expectation::ContactForceSum(e) => format!("{name} on \"{}\"{} {moment}", e.on, by(e.by.as_deref())),
         Expectation::FrictionForce(e) => format!("{name} on \"{}\"{} {moment}", e.on, by(e.by.as_deref())),
+        Expectation::JointForce(e) => format!("{name}{} of \"{}\" {moment}", part(e.part), e.of),
         Expectation::Order(e) => {
             let events: Vec<String> = e.events.iter().map(event).collect();
             format!("{name} of {}", events.join(", "))
@@ -65,6 +66,8 @@ pub(super) fn unit(expectation: &Expectation) -> &'static str {
         Expectation::MomentumKept(_) => "kg·m/s",
         Expectation::AngularMomentumKept(_) => "kg·m²/s",
         Expectation::ContactForceSum(_) | Expectation::FrictionForce(_) => "N",
+        Expectation::JointForce(e) if e.part == JointForcePart::Torque => "N·m",
+        Expectation::JointForce(_) => "N",
         Expectation::Order(_) | Expectation::Happens(_) | Expectation::Never(_) => "s",
         Expectation::AtRest(_) | Expectation::Fingerprint(_) => "",
     }
@@ -82,6 +85,15 @@ fn moment(when: When) -> String {
 
 fn by(name: Option<&str>) -> String {
     name.map_or_else(String::new, |name| format!(" by \"{name}\""))
+}
+
+fn part(part: JointForcePart) -> &'static str {
+    match part {
+        JointForcePart::Magnitude => "",
+        JointForcePart::X => " along x",
+        JointForcePart::Y => " along y",
+        JointForcePart::Torque => " (torque)",
+    }
 }
 
 fn event(event: &Event) -> String {

@@ -4,7 +4,9 @@ use glam::DVec2;
 use tumble_record::Fingerprint;
 
 use super::print::seconds;
-use crate::format::{AngleExpectation, AtRestExpectation, DepthExpectation, ScalarExpectation, VectorExpectation};
+use crate::format::{
+    AngleExpectation, AtRestExpectation, DepthExpectation, JointForceExpectation, ScalarExpectation, VectorExpectation,
+};
 
 /// What came of all expectations of a scene, in their order; its `Display` is one line for each.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -204,6 +206,12 @@ impl From<&ScalarExpectation> for Expected {
     }
 }
 
+impl From<&JointForceExpectation> for Expected {
+    fn from(e: &JointForceExpectation) -> Self {
+        Self::Number { near: Near::of(e.is, e.within), above: e.above, below: e.below }
+    }
+}
+
 impl From<&AngleExpectation> for Expected {
     fn from(e: &AngleExpectation) -> Self {
         let near = Near::of(e.is_degrees, e.within_degrees);
@@ -244,6 +252,12 @@ pub enum NotMeasured {
     /// No body of this name was recorded.
     #[error("there is no body \"{name}\"")]
     UnknownBody {
+        /// The name.
+        name: String,
+    },
+    /// No joint of this name was recorded.
+    #[error("there is no joint \"{name}\"")]
+    UnknownJoint {
         /// The name.
         name: String,
     },

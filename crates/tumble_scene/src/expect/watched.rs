@@ -28,7 +28,8 @@ fn needs_samples(expectation: &Expectation) -> bool {
         | Expectation::AngularVelocity(_)
         | Expectation::AtRest(_)
         | Expectation::ContactForceSum(_)
-        | Expectation::FrictionForce(_) => true,
+        | Expectation::FrictionForce(_)
+        | Expectation::JointForce(_) => true,
         // The last step, which a fingerprint is of, is always sampled.
         Expectation::EnergyNeverRises(_)
         | Expectation::EnergyKept(_)

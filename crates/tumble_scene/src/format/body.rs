@@ -100,7 +100,7 @@ pub enum Axis {
     Angle,
 }
 
-/// Resistance of the surrounding medium: F = −(linear + quadratic |v|) v.
+/// Resistance of the surrounding medium: F = −(linear + quadratic |v|) v, τ = −turning ω.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Drag {
@@ -110,6 +110,9 @@ pub struct Drag {
     /// Force per speed squared [N·s²/m²]. Default 0.
     #[serde(default)]
     pub quadratic: f64,
+    /// Torque per rate of turn [N·m·s]. Default 0.
+    #[serde(default)]
+    pub turning: f64,
 }
 
 /// A pose at a time.

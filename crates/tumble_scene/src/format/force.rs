@@ -22,7 +22,7 @@ pub struct SpringEntry {
     pub rest_length: Option<f64>,
 }
 
-/// Where a spring holds on.
+/// Where a spring or a joint holds on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum AnchorEntry {

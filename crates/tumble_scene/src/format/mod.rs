@@ -14,6 +14,7 @@ mod coefficient;
 mod contact;
 mod expect;
 mod force;
+mod joint;
 mod material;
 mod part;
 mod scene;
@@ -26,10 +27,12 @@ pub use contact::{
 };
 pub use expect::{
     AngleExpectation, AtRestExpectation, DepthExpectation, EnergyNeverRisesExpectation, Event, Expectation,
-    FingerprintExpectation, ForceExpectation, FrictionExpectation, HappensExpectation, KeptExpectation,
-    NeverExpectation, OrderExpectation, ScalarExpectation, TargetForce, VectorExpectation, When,
+    FingerprintExpectation, ForceExpectation, FrictionExpectation, HappensExpectation, JointForceExpectation,
+    JointForcePart, KeptExpectation, NeverExpectation, OrderExpectation, ScalarExpectation, TargetForce,
+    VectorExpectation, When,
 };
 pub use force::{AnchorEntry, Axes, ForceEntry, SpringEntry};
+pub use joint::{JointEntry, JointKind};
 pub use material::{FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Surface, Take};
 pub use part::{BoxPart, DiscPart, HalfPlanePart, Part, PolygonPart, RodPart};
 pub use scene::{Integrator, Scene};

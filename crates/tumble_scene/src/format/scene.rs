@@ -7,8 +7,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BodyEntry, ContactModel, Expectation, ForceEntry, MaterialEntry, ModelEntries, PairEntry, Part, SpringEntry,
-    Surface, Take,
+    BodyEntry, ContactModel, Expectation, ForceEntry, JointEntry, MaterialEntry, ModelEntries, PairEntry, Part,
+    SpringEntry, Surface, Take,
 };
 
 /// A planar scene: what is there, how it is simulated, and what it promises.
@@ -77,6 +77,9 @@ pub struct Scene {
     /// Springs with damping between points of bodies or of the world.
     #[serde(default)]
     pub springs: Vec<SpringEntry>,
+    /// Joints between points of bodies or of the world. Bodies held together do not collide with each other. Their order means nothing.
+    #[serde(default)]
+    pub joints: Vec<JointEntry>,
     /// Applied forces and torques.
     #[serde(default)]
     pub forces: Vec<ForceEntry>,
@@ -133,6 +136,7 @@ impl Default for Scene {
             part_lists: BTreeMap::new(),
             bodies: Vec::new(),
             springs: Vec::new(),
+            joints: Vec::new(),
             forces: Vec::new(),
             expect: Vec::new(),
         }

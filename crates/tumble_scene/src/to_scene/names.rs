@@ -1,4 +1,4 @@
-//! The bodies that an expectation is about.
+//! The bodies and joints that an expectation is about.
 
 use crate::format::{Event, Expectation};
 
@@ -24,6 +24,15 @@ pub(super) fn bodies_named(expectation: &Expectation) -> Vec<&str> {
         | Expectation::MomentumKept(_)
         | Expectation::AngularMomentumKept(_)
         | Expectation::Depth(_)
+        | Expectation::JointForce(_)
         | Expectation::Fingerprint(_) => Vec::new(),
+    }
+}
+
+/// Name of the joint, if it is about one.
+pub(super) fn joint_named(expectation: &Expectation) -> Option<&str> {
+    match expectation {
+        Expectation::JointForce(e) => Some(&e.of),
+        _ => None,
     }
 }

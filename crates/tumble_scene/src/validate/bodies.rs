@@ -99,6 +99,7 @@ impl Checker<'_> {
         }
         found.not_negative(&path.field("drag").field("linear"), "linear drag", body.drag.linear);
         found.not_negative(&path.field("drag").field("quadratic"), "quadratic drag", body.drag.quadratic);
+        found.not_negative(&path.field("drag").field("turning"), "drag against turning", body.drag.turning);
         self.mass(path, body, found);
         motion(path, body, found);
         repeat(path, body, found);

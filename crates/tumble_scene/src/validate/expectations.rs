@@ -2,7 +2,9 @@
 
 use super::Findings;
 use super::bodies::BodyNames;
-use crate::format::{AngleExpectation, Event, Expectation, ScalarExpectation, Scene};
+use crate::format::{
+    AngleExpectation, Event, Expectation, JointForceExpectation, JointForcePart, ScalarExpectation, Scene,
+};
 use crate::path::ScenePath;
 
 pub(super) fn check(scene: &Scene, bodies: &BodyNames, found: &mut Findings) {
@@ -76,6 +78,7 @@ impl Checker<'_> {
                 self.force(&e.on, e.by.as_deref(), [e.at, e.from, e.until], e.within, found);
                 found.not_negative(&self.path.field("is"), "a magnitude", e.is);
             }
+            Expectation::JointForce(e) => self.joint_force(e, found),
             Expectation::Order(e) => {
                 if e.events.len() < 2 {
                     found.error(&self.path.field("events"), "an order needs at least two events", "name them here");
@@ -167,6 +170,20 @@ impl Checker<'_> {
             below: e.below_degrees,
         };
         self.value(&value, found);
+    }
+
+    fn joint_force(&self, e: &JointForceExpectation, found: &mut Findings) {
+        if !self.scene.joints.iter().any(|joint| joint.name == e.of) {
+            let allowed: Vec<&str> = self.scene.joints.iter().map(|joint| joint.name.as_str()).collect();
+            found.unknown(&self.path.field("of"), "joint", &e.of, &allowed);
+        }
+        self.when(&WhenFields { at: e.at, always: e.always, from: e.from, until: e.until }, true, found);
+        self.value(&ValueFields { suffix: "", is: e.is, within: e.within, above: e.above, below: e.below }, found);
+        if e.part == JointForcePart::Magnitude
+            && let Some(is) = e.is
+        {
+            found.not_negative(&self.path.field("is"), "a magnitude", is);
+        }
     }
 
     fn value(&self, value: &ValueFields, found: &mut Findings) {

@@ -4,6 +4,7 @@ mod bodies;
 mod expectations;
 mod finite;
 mod forces;
+mod joints;
 mod materials;
 mod settings;
 
@@ -15,6 +16,7 @@ use crate::format::Scene;
 use crate::materials::MaterialLibrary;
 use crate::path::ScenePath;
 
+pub(crate) use joints::open_joints;
 pub(crate) use materials::check_table;
 
 /// Every mistake and warning of a scene.
@@ -32,6 +34,7 @@ pub fn validate(scene: &Scene, library: &MaterialLibrary) -> Vec<Diagnostic> {
     materials::check(scene, &mut found);
     bodies::check(scene, library, &bodies, &mut found);
     forces::check(scene, &bodies, &mut found);
+    joints::check(scene, &bodies, &mut found);
     expectations::check(scene, &bodies, &mut found);
     if found.list.is_empty() {
         materials::notices(scene, library, &mut found);

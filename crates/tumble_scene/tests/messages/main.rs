@@ -5,6 +5,7 @@ mod characters;
 mod expectations;
 mod fields;
 mod forces;
+mod joints;
 mod materials;
 mod parts;
 mod settings;

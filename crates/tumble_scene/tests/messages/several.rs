@@ -28,7 +28,7 @@ error: the scene has no field `gravty`
 4 |     gravty: (0, -9.81),
   |     ^^^^^^ did you mean `gravity`?
   |
-  = help: allowed are format, about, dt, duration, gravity, length_scale, slop, integrator, contact, models, every, seed, allow_overlap, materials_from, materials, pairs, surface, take, part_lists, bodies, springs, forces, expect
+  = help: allowed are format, about, dt, duration, gravity, length_scale, slop, integrator, contact, models, every, seed, allow_overlap, materials_from, materials, pairs, surface, take, part_lists, bodies, springs, joints, forces, expect
 
 error: `kind` cannot be `Dynamik`
  --> scene.ron:6:29
@@ -56,7 +56,7 @@ error: an element of `expect` cannot be `Sped`
 9 |     expect: [Sped(of: "box")],
   |              ^^^^ did you mean `Speed`?
   |
-  = help: allowed are Position, X, Y, Angle, Velocity, VelocityX, VelocityY, Speed, AngularVelocity, AtRest, EnergyNeverRises, EnergyKept, MomentumKept, AngularMomentumKept, Depth, ContactForceSum, FrictionForce, Order, Happens, Never, Fingerprint
+  = help: allowed are Position, X, Y, Angle, Velocity, VelocityX, VelocityY, Speed, AngularVelocity, AtRest, EnergyNeverRises, EnergyKept, MomentumKept, AngularMomentumKept, Depth, ContactForceSum, FrictionForce, JointForce, Order, Happens, Never, Fingerprint
 "##);
 }
 

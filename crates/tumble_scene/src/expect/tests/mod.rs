@@ -6,6 +6,7 @@
 
 mod event;
 mod force;
+mod joint;
 mod lines;
 mod state;
 mod world;
@@ -51,7 +52,7 @@ fn sample(step: u64) -> Sample {
     let on_floor = contact(BOX, FLOOR, dvec2(0.0, -1.0), 2.0 * 9.81 * DT, 0.3);
     let on_crate = contact(BOX, CRATE_0, dvec2(1.0, 0.0), 5.0 * DT, 0.0);
     let contacts = if step == 0 { Vec::new() } else { vec![on_floor, on_crate] };
-    Sample { step, time, states, contacts }
+    Sample { step, time, states, contacts, joints: Vec::new() }
 }
 
 fn recording() -> Recording {

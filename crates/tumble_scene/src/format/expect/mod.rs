@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::ContactModel;
 
 pub use event::{Event, HappensExpectation, NeverExpectation, OrderExpectation};
-pub use force::{ForceExpectation, FrictionExpectation, TargetForce};
+pub use force::{ForceExpectation, FrictionExpectation, JointForceExpectation, JointForcePart, TargetForce};
 pub use state::{AngleExpectation, AtRestExpectation, FingerprintExpectation, ScalarExpectation, VectorExpectation};
 pub use world::{DepthExpectation, EnergyNeverRisesExpectation, KeptExpectation};
 
@@ -55,6 +55,8 @@ pub enum Expectation {
     ContactForceSum(ForceExpectation),
     /// Magnitude of the vector sum of the friction forces on a body [N].
     FrictionForce(FrictionExpectation),
+    /// Force or torque of a joint [N], [N·m].
+    JointForce(JointForceExpectation),
     /// Events that happen one before the other.
     Order(OrderExpectation),
     /// An event that happens at a time.
@@ -110,6 +112,7 @@ impl Expectation {
             Self::Depth(_) => "Depth",
             Self::ContactForceSum(_) => "ContactForceSum",
             Self::FrictionForce(_) => "FrictionForce",
+            Self::JointForce(_) => "JointForce",
             Self::Order(_) => "Order",
             Self::Happens(_) => "Happens",
             Self::Never(_) => "Never",
@@ -134,6 +137,7 @@ impl Expectation {
             Self::Depth(e) => (&e.because, &e.under),
             Self::ContactForceSum(e) => (&e.because, &e.under),
             Self::FrictionForce(e) => (&e.because, &e.under),
+            Self::JointForce(e) => (&e.because, &e.under),
             Self::Order(e) => (&e.because, &e.under),
             Self::Happens(e) => (&e.because, &e.under),
             Self::Never(e) => (&e.because, &e.under),
@@ -162,6 +166,7 @@ impl Expectation {
             Self::Depth(e) => When::of(e.at, e.from, e.until),
             Self::ContactForceSum(e) => When::of(e.at, e.from, e.until),
             Self::FrictionForce(e) => When::of(e.at, e.from, e.until),
+            Self::JointForce(e) => When::of(e.at, e.from, e.until),
             Self::Happens(e) => When::At(e.at),
             Self::EnergyNeverRises(_)
             | Self::EnergyKept(_)

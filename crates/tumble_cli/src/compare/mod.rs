@@ -1,0 +1,162 @@
+//! `tumble compare`: one scene under several contact models and step sizes, side by side.
+//!
+//! - [`figures`]: what is measured of a run; [`reference`]: how far it is from a fine one;
+//! - [`words`]: the table and the sentence below it, `compare.csv`.
+
+mod figures;
+mod reference;
+mod words;
+
+use std::path::Path;
+
+use tumble_record::plot::Plot;
+use tumble_record::{Channel, Completeness, MOST_CURVES, OutputFolder, Recording, Series};
+use tumble_scene::Loaded;
+use tumble_scene::expect::watched_steps;
+use tumble_scene::format::ContactModel;
+
+use crate::args::{CompareArguments, Overrides};
+use crate::failure::{Exit, Failure, stderr_color, tell};
+use crate::figure::counted;
+use crate::interrupt;
+use crate::page::Page;
+use crate::report;
+use crate::run::OUT;
+use crate::simulate::{Ending, Prepared, Progress, Run};
+use crate::source::Source;
+use figures::{Row, resting_bodies};
+use reference::Reference;
+
+/// Parts of the smallest step that the reference takes [1].
+const REFERENCE_STEPS: u32 = 16;
+
+/// Runs the scene in every combination, prints the table, and writes `compare.csv` and `compare.svg`.
+pub fn compare(arguments: &CompareArguments, page: &mut Page) -> Result<Exit, Failure> {
+    let source = Source::of(&arguments.scene)?;
+    let loaded = source.load()?;
+    if !loaded.warnings.is_empty() {
+        tell(loaded.warnings.render(stderr_color()));
+    }
+    let cases = cases(arguments, &loaded)?;
+    let name = source.stem().to_string_lossy().into_owned();
+    let folder = arguments.out.clone().unwrap_or_else(|| Path::new(OUT).join(&name).join("compare"));
+    let folder = OutputFolder::new(folder);
+    // Everything that can be refused is refused before the first long run.
+    let mut prepared =
+        cases.iter().map(|case| case.prepare(&source, &loaded)).collect::<Result<Vec<Prepared>, Failure>>()?;
+    let channel = channel(arguments, &mut prepared)?;
+    let finest = cases.iter().map(|case| case.dt).fold(f64::INFINITY, f64::min);
+    let reference = arguments.reference.map(|contact| Case { contact, dt: finest / f64::from(REFERENCE_STEPS) });
+    let reference = reference.map(|case| Reference::prepare(&case, &source)).transpose()?;
+    folder.prepare(Completeness::Whole).map(drop)?;
+    interrupt::listen();
+
+    let reference = reference.map(Reference::run).transpose()?;
+    let several_steps = cases.iter().any(|case| case.dt != cases[0].dt);
+    let (mut rows, mut curves, mut value_label) = (Vec::new(), Vec::new(), String::new());
+    for (case, mut prepared) in cases.iter().zip(prepared) {
+        let run = finished(prepared.run(Progress::Shown))?;
+        let verdict = prepared.verdict(&run.recording);
+        let resting = resting_bodies(&prepared.loaded.scene, &run.recording);
+        let row = Row::of(case, &run, &verdict, &resting, reference.as_ref());
+        let plot = Plot::channel(&run.recording, &channel)?;
+        let label = case.label(several_steps);
+        curves.extend(plot.series.into_iter().map(|series| Series { label: label.clone(), ..series }));
+        value_label = plot.value_label;
+        rows.push(row);
+    }
+
+    page.line(format!("{name}: {} of {} s", counted(rows.len() as u64, "run"), loaded.scene.duration));
+    page.line("");
+    words::table(&rows, arguments.reference).iter().for_each(|line| page.line(line));
+    page.line("");
+    for row in rows.iter().filter(|row| row.failure.is_some()) {
+        page.line(format!("{}: {}", row.label(several_steps), row.failure.as_deref().unwrap_or_default()));
+    }
+    page.line(words::best(&rows, several_steps, words::Promises::of(&loaded.scene)));
+    page.line("");
+    let plot = Plot { title: format!("{name}  ·  {}", channel.title()), value_label, series: curves };
+    let mut files = folder.prepare(Completeness::Whole)?;
+    files.add("compare.csv", |out| words::write_csv(&rows, out))?;
+    files.add("compare.svg", |out| out.write_all(plot.to_svg().as_bytes()))?;
+    let files = files.publish()?;
+    page.line(report::files(&folder, Completeness::Whole, &files));
+    Ok(if rows.iter().any(|row| row.failure.is_none()) { Exit::Fine } else { Exit::RunFailed })
+}
+
+/// A contact model and a step size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case {
+    /// The contact model.
+    pub contact: ContactModel,
+    /// Length of a step [s].
+    pub dt: f64,
+}
+
+impl Case {
+    fn prepare(&self, source: &Source, loaded: &Loaded) -> Result<Prepared, Failure> {
+        let overrides = Overrides { contact: Some(self.contact), dt: Some(self.dt), duration: None };
+        // Rest is measured from the beginning of the last tenth on.
+        let last_tenth = (0.9 * (loaded.scene.duration / self.dt).round()).round() as u64;
+        Prepared::sampled(source, source.load()?, &overrides, None, |scene| {
+            let mut spans = watched_steps(scene, scene.contact);
+            spans.push(last_tenth..=last_tenth);
+            spans
+        })
+    }
+
+    fn label(&self, with_step: bool) -> String {
+        if with_step { format!("{}, {} s", self.contact.word(), self.dt) } else { self.contact.word().to_owned() }
+    }
+}
+
+/// Every model with every step size.
+fn cases(arguments: &CompareArguments, loaded: &Loaded) -> Result<Vec<Case>, Failure> {
+    let scene = &loaded.scene;
+    let is_meant = |model: &ContactModel| {
+        scene.expect.is_empty() || scene.expect.iter().any(|expectation| expectation.is_claimed_under(*model))
+    };
+    let mut models = arguments.contact.clone();
+    if models.is_empty() {
+        models = ContactModel::ALL.into_iter().filter(is_meant).collect();
+    }
+    let steps = if arguments.dt.is_empty() { vec![scene.dt] } else { arguments.dt.clone() };
+    let mut cases: Vec<Case> = Vec::new();
+    for case in models.iter().flat_map(|&contact| steps.iter().map(move |&dt| Case { contact, dt })) {
+        if !cases.contains(&case) {
+            cases.push(case);
+        }
+    }
+    if cases.len() > MOST_CURVES {
+        let message = format!("{} runs cannot be told apart in one plot: at most {MOST_CURVES}", cases.len());
+        return Err(Failure::Arguments(message));
+    }
+    Ok(cases)
+}
+
+/// The channel of the plot, checked; the total energy if none was asked for.
+fn channel(arguments: &CompareArguments, prepared: &mut [Prepared]) -> Result<Channel, Failure> {
+    let channel = arguments.plot.clone().map_or_else(|| "total".parse(), Ok)?;
+    if let Some(recording) = prepared.first_mut().and_then(Prepared::recording) {
+        channel.check(recording)?;
+        let count = channel.series(recording)?.len();
+        if count != 1 {
+            let message = format!("one curve is compared, and `{channel}` has {count}: name one as `{channel}:NAME`");
+            return Err(Failure::Arguments(message));
+        }
+    }
+    Ok(channel)
+}
+
+/// A run that nobody interrupted.
+fn finished(run: Run) -> Result<Run, Failure> {
+    match run.ending {
+        Ending::Interrupted => Err(Failure::Run("interrupted: nothing was written".to_owned())),
+        Ending::Complete | Ending::Failed(_) => Ok(run),
+    }
+}
+
+/// Time of the last sample [s].
+fn end_of(recording: &Recording) -> f64 {
+    recording.samples.last().map_or(0.0, |sample| sample.time)
+}
