@@ -10,7 +10,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
 use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};
-use tumble_sim::{ContactModel, StepError};
+use tumble_sim::{ContactModel, ContactReport, StepError};
+use tumble_solver::Ending;
 
 use measure::{Timing, bytes_per_body, time_steps};
 
@@ -118,16 +119,19 @@ fn settle(arguments: &Arguments) -> Result<(), StepError> {
     let dt = pile.settings().dt;
     let started = std::time::Instant::now();
     let mut slowest: f64 = 0.0;
+    let mut unconverged = 0;
     for _ in 0..arguments.steps {
         let step = std::time::Instant::now();
         pile.step()?;
         slowest = slowest.max(step.elapsed().as_secs_f64());
+        let solved = pile.world().resource::<ContactReport>().solved;
+        unconverged += u32::from(solved.is_some_and(|report| report.ending == Ending::NotConverged));
     }
     let wall = started.elapsed().as_secs_f64();
     let simulated = f64::from(arguments.steps) * dt;
     let figures = scenes::pile_figures(&mut pile);
     println!(
-        "{} bodies of three rods, {}: {:.2} s simulated in {:.2} s: {:.2} × real time; slowest step {:.1} ms; {} touching points, deepest overlap {:.4} m, fastest body {:.3} m/s",
+        "{} bodies of three rods, {}: {:.2} s simulated in {:.2} s: {:.2} × real time; slowest step {:.1} ms; {} touching points, deepest overlap {:.4} m, fastest body {:.3} m/s; {} steps did not converge",
         arguments.bodies,
         arguments.contact.word(),
         simulated,
@@ -136,7 +140,8 @@ fn settle(arguments: &Arguments) -> Result<(), StepError> {
         slowest * 1e3,
         figures.touching,
         figures.deepest_overlap,
-        figures.fastest
+        figures.fastest,
+        unconverged
     );
     Ok(())
 }
