@@ -101,9 +101,13 @@ impl<D: Geometry> Detection<D> {
         &self.motions
     }
 
-    /// Entities of the solid pairs that have contact points, in the order of their parts.
+    /// Entities of the solid pairs that have contact points: in the order of their parts, or every [`STRIDE`]th of it in turn where
+    /// there are many.
     pub(super) fn solid_pairs(&self) -> impl Iterator<Item = Entity> {
-        self.solid.iter().map(|(_, entity)| *entity)
+        let stride = if self.solid.len() > PAIRS_IN_ORDER { STRIDE } else { 1 };
+        (0..stride.min(self.solid.len()))
+            .flat_map(move |first| self.solid[first..].iter().step_by(stride))
+            .map(|(_, entity)| *entity)
     }
 
     /// Number of pairs whose grown bounds overlap.
@@ -141,6 +145,11 @@ impl<D: Geometry> Detection<D> {
     }
 }
 
+/// Up to this many solid pairs are solved in the order of their parts.
+const PAIRS_IN_ORDER: usize = 400;
+/// Beyond, neighbours in the order of solving are this many pairs apart, so that they rarely share a body: the processor works at
+/// several at once instead of waiting for each, and a sweep spreads its changes over the whole pile.
+const STRIDE: usize = 16;
 /// Margin of fat bounds beyond the travel that they foresee, in length scales: larger finds pairs anew less often.
 const FAT_MARGIN: f64 = 0.05;
 /// Steps of steady motion that fat bounds allow for: more finds pairs anew less often [1].
