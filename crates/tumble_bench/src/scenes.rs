@@ -77,12 +77,17 @@ pub fn settle(count: usize, contact: ContactModel) -> Simulation {
     simulation
 }
 
+/// Overlap that a pile should not show at many points: twice the slop [m].
+pub const DEEP: f64 = 0.01;
+
 /// What a pile looks like.
 pub struct PileFigures {
     /// Touching points.
     pub touching: usize,
     /// Deepest overlap [m].
     pub deepest_overlap: f64,
+    /// Points that overlap by more than [`DEEP`].
+    pub deep: usize,
     /// Speed of the fastest body [m/s].
     pub fastest: f64,
 }
@@ -102,6 +107,7 @@ pub fn pile_figures(simulation: &mut Simulation) -> PileFigures {
     PileFigures {
         touching: separations.len(),
         deepest_overlap: separations.iter().map(|separation| -separation).fold(0.0, f64::max),
+        deep: separations.iter().filter(|separation| **separation < -DEEP).count(),
         fastest,
     }
 }

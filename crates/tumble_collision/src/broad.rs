@@ -16,11 +16,13 @@
 //!
 //! The set of pairs depends on the fat volumes alone, never on the order of insertion or the form of the tree.
 
+mod oriented;
 mod tree;
 mod volume;
 
 use tumble_math::Vector;
 
+pub use oriented::OrientedBox;
 pub use volume::Volume;
 
 use tree::Tree;
@@ -107,13 +109,19 @@ impl<V: Vector> BroadPhase<V> {
     ///
     /// A fat volume that became needlessly wide (more than four margins, after a fast body slowed down) is built anew as well.
     pub fn update(&mut self, id: u32, volume: Volume<V>, fat_margin: f64) {
+        self.update_moving(id, volume, V::ZERO, fat_margin);
+    }
+
+    /// The same for a proxy that is on its way: the fat volume reaches as far ahead as it is expected to `travel` [m].
+    pub fn update_moving(&mut self, id: u32, volume: Volume<V>, travel: V, fat_margin: f64) {
+        let fat = volume.swept(travel).grown(fat_margin);
         let Some(proxy) = self.proxy(id) else {
-            return self.place(id, volume.grown(fat_margin));
+            return self.place(id, fat);
         };
-        if proxy.fat.contains(&volume) && volume.grown(4.0 * fat_margin).contains(&proxy.fat) {
+        let wide = 4.0 * (fat_margin + travel.length());
+        if proxy.fat.contains(&volume) && volume.grown(wide).contains(&proxy.fat) {
             return;
         }
-        let fat = volume.grown(fat_margin);
         if let (Some(leaf), Volume::Box(bounds)) = (proxy.leaf, fat)
             && bounds.overlaps(&bounds)
         {

@@ -26,7 +26,7 @@ pub mod broad;
 pub mod manifold;
 pub mod narrow;
 
-pub use broad::{BroadPhase, PairChanges, Volume};
+pub use broad::{BroadPhase, OrientedBox, PairChanges, Volume};
 pub use manifold::{ContactKind, ContactPoint, CornerOf, FeatureId, Manifold, PlanarManifold};
 pub use narrow::planar::collide;
 pub use narrow::{PlanarQuery, Query};

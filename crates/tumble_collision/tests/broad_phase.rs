@@ -97,6 +97,26 @@ proptest! {
     }
 }
 
+#[test]
+fn proxy_on_its_way_keeps_its_fat_volume_as_far_as_it_was_expected_to_travel() {
+    let mut broad_phase = BroadPhase::new();
+    let travel = DVec2::new(2.0, 0.0);
+    broad_phase.update_moving(0, unit_box(DVec2::ZERO), travel, 0.1);
+    let fat = broad_phase.fat_volume(0);
+    broad_phase.update_moving(0, unit_box(travel), travel, 0.1);
+    assert_eq!(broad_phase.fat_volume(0), fat, "where it was expected");
+    broad_phase.update_moving(0, unit_box(travel * 1.1), travel, 0.1);
+    assert_ne!(broad_phase.fat_volume(0), fat, "further than that");
+}
+
+#[test]
+fn box_that_stopped_gets_a_close_fat_volume_again() {
+    let mut broad_phase = BroadPhase::new();
+    broad_phase.update_moving(0, unit_box(DVec2::ZERO), DVec2::new(2.0, 0.0), 0.1);
+    broad_phase.update_moving(0, unit_box(DVec2::ZERO), DVec2::ZERO, 0.1);
+    assert_eq!(broad_phase.fat_volume(0), Some(unit_box(DVec2::ZERO).grown(0.1)));
+}
+
 fn unit_box(centre: DVec2) -> Volume<DVec2> {
     Volume::Box(Bounds { min: centre - DVec2::splat(0.5), max: centre + DVec2::splat(0.5) })
 }

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use glam::DVec2;
-use tumble_collision::{ContactPoint, PlanarManifold, PlanarQuery, Volume, collide as collide_planar};
+use tumble_collision::{ContactPoint, OrientedBox, PlanarManifold, PlanarQuery, Volume, collide as collide_planar};
 use tumble_math::{Planar, PlanarRotation, Pose, Rotation};
 use tumble_shape::{MassDim, MassProperties, PlanarShape};
 use tumble_solver::SolverBody;
@@ -38,6 +38,8 @@ pub struct ContactQuery<'a, D: Geometry> {
 pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
     /// A shape.
     type Shape: Clone + Debug + PartialEq + Send + Sync + 'static;
+    /// A box that turns with a shape.
+    type OrientedBox: Copy + Debug + Send + Sync + 'static;
     /// The contact points of two shapes.
     type Manifold: Clone + Debug + Default + Send + Sync + 'static;
     /// Something for each point of a manifold.
@@ -58,6 +60,12 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
 
     /// Where the shape of a body is.
     fn volume(shape: &Self::Shape, pose: &Pose<Self>) -> Volume<Self::Vector>;
+
+    /// A close box around the shape of a body, grown by a margin [m]; `None` for one without bounds.
+    fn oriented_box(shape: &Self::Shape, pose: &Pose<Self>, margin: f64) -> Option<Self::OrientedBox>;
+
+    /// Whether two boxes share a point.
+    fn boxes_overlap(one: &Self::OrientedBox, other: &Self::OrientedBox) -> bool;
 
     /// Largest distance of a point of the shape from the origin of its frame [m]; `None` for one without bounds.
     fn extent(shape: &Self::Shape) -> Option<f64>;
@@ -99,6 +107,7 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
 
 impl Geometry for Planar {
     type Shape = PlanarShape;
+    type OrientedBox = OrientedBox;
     type Manifold = PlanarManifold;
     type PerPoint<T: Copy + Debug + Default + Send + Sync + 'static> = [T; 2];
 
@@ -115,6 +124,15 @@ impl Geometry for Planar {
 
     fn volume(shape: &PlanarShape, pose: &Pose<Self>) -> Volume<DVec2> {
         Volume::of_planar(shape, pose)
+    }
+
+    fn oriented_box(shape: &PlanarShape, pose: &Pose<Self>, margin: f64) -> Option<OrientedBox> {
+        OrientedBox::around(shape, pose, margin)
+    }
+
+    #[inline]
+    fn boxes_overlap(one: &OrientedBox, other: &OrientedBox) -> bool {
+        one.overlaps(other)
     }
 
     fn extent(shape: &PlanarShape) -> Option<f64> {

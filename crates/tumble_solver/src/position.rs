@@ -32,7 +32,9 @@ pub struct PositionSettings {
 }
 
 /// Sweeps after which points are looked for that have come in the way of those that take part [1].
-const SWEEPS_BETWEEN_LOOKS: u32 = 4;
+///
+/// A look goes over all rows, most of which never take part, and costs as much as a few sweeps.
+const SWEEPS_BETWEEN_LOOKS: u32 = 10;
 
 /// Displacements to be added to this step's motion: one per body, as velocities of a step of one second.
 #[derive(Clone, Debug)]

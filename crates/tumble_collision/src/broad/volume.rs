@@ -27,6 +27,14 @@ impl<V: Vector> Volume<V> {
         }
     }
 
+    /// All that a box passes through as it moves by `travel` [m]. Half-spaces stay as they are: they reach everywhere as it is.
+    pub fn swept(self, travel: V) -> Self {
+        match self {
+            Self::Box(bounds) => Self::Box(bounds.join(Bounds { min: bounds.min + travel, max: bounds.max + travel })),
+            Self::HalfSpace { .. } => self,
+        }
+    }
+
     /// Whether two volumes share a point; touching counts. Two half-spaces never do: neither can move into the other.
     pub fn overlaps(&self, other: &Self) -> bool {
         match (self, other) {

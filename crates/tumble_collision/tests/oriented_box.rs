@@ -1,0 +1,49 @@
+//! Oriented boxes against the narrow phase, which they spare work.
+
+mod common;
+
+use glam::DVec2;
+use proptest::prelude::proptest;
+use tumble_collision::{OrientedBox, collide};
+use tumble_shape::{HalfPlane, PlanarShape};
+
+use common::{at, config, query, shape, thin};
+
+proptest! {
+    #![proptest_config(config(2000))]
+
+    #[test]
+    fn shapes_whose_boxes_are_apart_have_no_contact_points(
+        a in shape(), b in shape(), x in -3.0..3.0_f64, y in -3.0..3.0_f64, turns in (-3.0..3.0_f64, -3.0..3.0_f64),
+        margins in (0.0..0.5_f64, 0.0..0.5_f64),
+    ) {
+        let (pose_a, pose_b) = (at(0.0, 0.0, turns.0), at(x, y, turns.1));
+        let boxes = (OrientedBox::around(&a, &pose_a, margins.0), OrientedBox::around(&b, &pose_b, margins.1));
+        if let (Some(box_a), Some(box_b)) = boxes
+            && !box_a.overlaps(&box_b)
+        {
+            assert!(!box_b.overlaps(&box_a));
+            // Less than the boxes were grown by, so that rounding decides nothing.
+            let margin = (margins.0 + margins.1) * (1.0 - 1e-9);
+            assert!(collide(&a, &pose_a, &b, &pose_b, &query(margin, 0.0)).is_empty());
+        }
+    }
+}
+
+#[test]
+fn parallel_rods_are_apart_as_soon_as_a_gap_shows() {
+    let level = OrientedBox::around(&thin(2.0), &at(0.0, 0.0, 0.5), 0.0).unwrap();
+    let beside = |gap: f64| {
+        let across = DVec2::new(-tumble_math::trig::sin(0.5), tumble_math::trig::cos(0.5)) * gap;
+        OrientedBox::around(&thin(2.0), &at(across.x, across.y, 0.5), 0.0).unwrap()
+    };
+    assert!(level.overlaps(&level));
+    assert!(!level.overlaps(&beside(1e-3)));
+    assert!(!level.overlaps(&beside(-1e-3)));
+}
+
+#[test]
+fn half_plane_has_no_box() {
+    let plane = PlanarShape::from(HalfPlane::try_new(DVec2::Y, 0.0).unwrap());
+    assert_eq!(OrientedBox::around(&plane, &at(0.0, 0.0, 0.0), 0.0), None);
+}
