@@ -16,7 +16,7 @@ const PIVOT_UP_TO_ROWS: usize = 12;
 const NEWTON_UP_TO_ROWS: usize = 120;
 
 /// Up to this many rows it is worth a try where sweeps have not come to rest.
-const NEWTON_AFTER_SWEEPS_UP_TO_ROWS: usize = 400;
+const NEWTON_AFTER_SWEEPS_UP_TO_ROWS: usize = 150;
 
 /// A first guess counts as the answer only when it is as exact as an answer, which is far better than the tolerance asks [1].
 const KNOWN_WITHIN: f64 = 1e-4;
