@@ -48,7 +48,9 @@ scenes! {
     bouncing_rod,
     box_stack,
     dominoes,
+    double_pendulum,
     drag_terminal_velocity,
+    hanging_chain,
     head_on,
     homework_rods,
     homework_rods_impulse,
@@ -58,6 +60,7 @@ scenes! {
     rod_hits_floor_at_angle,
     rod_pile,
     rolling_disc,
+    slider_crank,
     spring_pendulum,
     stopping_distance,
 }

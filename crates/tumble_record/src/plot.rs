@@ -27,6 +27,29 @@ pub struct Plot {
     pub value_label: String,
     /// The curves, each with its label for the legend.
     pub series: Vec<Series>,
+    /// How wide they are drawn.
+    pub strokes: Strokes,
+}
+
+/// How wide curves are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Strokes {
+    /// All alike.
+    #[default]
+    Even,
+    /// Wider ones below, so that of curves that coincide each shows as a rim.
+    Nested,
+}
+
+impl Strokes {
+    /// Width of a curve of so many [px].
+    fn width(self, index: usize, count: usize) -> u32 {
+        const WIDTH: u32 = 2;
+        match self {
+            Self::Even => WIDTH,
+            Self::Nested => WIDTH + 2 * (count - 1 - index).min(4) as u32,
+        }
+    }
 }
 
 /// Size of the picture [px].
@@ -69,7 +92,12 @@ impl Plot {
         ];
         let series =
             curves.map(|(quantity, label)| Series { label: label.to_owned(), ..world_series(recording, quantity) });
-        Self { title: heading(recording, "energy"), value_label: "energy [J]".to_owned(), series: series.into() }
+        Self {
+            title: heading(recording, "energy"),
+            value_label: "energy [J]".to_owned(),
+            series: series.into(),
+            ..Self::default()
+        }
     }
 
     /// Shows a channel over time.
@@ -78,7 +106,8 @@ impl Plot {
             "1" => channel.name().replace('_', " "),
             unit => format!("{} [{unit}]", channel.name().replace('_', " ")),
         };
-        Ok(Self { title: heading(recording, &channel.title()), value_label, series: channel.series(recording)? })
+        let title = heading(recording, &channel.title());
+        Ok(Self { title, value_label, series: channel.series(recording)?, ..Self::default() })
     }
 
     /// Draws the plot as the text of an SVG file.
@@ -114,7 +143,8 @@ impl Plot {
             .build_cartesian_2d(times.0..times.1, values.0..values.1)?;
         self.draw_axes(&mut chart, times, values)?;
         for (index, series) in self.series.iter().enumerate() {
-            let style = ShapeStyle::from(&COLORS[index % COLORS.len()]).stroke_width(fine(2));
+            let width = self.strokes.width(index, self.series.len());
+            let style = ShapeStyle::from(&COLORS[index % COLORS.len()]).stroke_width(fine(width));
             for stretch in finite_stretches(series) {
                 // A lone point has no line; a short dash keeps it visible.
                 let width = if stretch.len() == 1 { (times.1 - times.0) * 0.004 } else { 0.0 };

@@ -11,7 +11,7 @@ fn series(label: &str, values: &[f64]) -> Series {
 }
 
 fn plot(series: Vec<Series>) -> String {
-    Plot { title: "title".to_owned(), value_label: "speed [m/s]".to_owned(), series }.to_svg()
+    Plot { title: "title".to_owned(), value_label: "speed [m/s]".to_owned(), series, ..Plot::default() }.to_svg()
 }
 
 /// Whether every coordinate of a line is a number within the page, 960 px wide with 8 units to a pixel.

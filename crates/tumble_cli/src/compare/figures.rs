@@ -19,6 +19,8 @@ pub struct Row {
     pub met: usize,
     /// Expectations that are claimed for the model.
     pub claimed: usize,
+    /// All expectations of the scene.
+    pub expectations: usize,
     /// Largest part of its tolerance that an expectation used; above 1 it was not met [1].
     pub worst_ratio: Option<f64>,
     /// Largest distance of a dynamic body from where the reference has it [m].
@@ -53,6 +55,7 @@ impl Row {
             steps,
             met: verdict.count(Status::Met),
             claimed: verdict.count(Status::Met) + verdict.count(Status::Failed),
+            expectations: verdict.outcomes.len(),
             worst_ratio: verdict.outcomes.iter().filter_map(|outcome| outcome.ratio()).reduce(worse),
             reference_error: reference.filter(|_| complete).and_then(|reference| reference.distance_to(recording)),
             energy_drift: energy_drift(recording).filter(|_| complete),

@@ -9,7 +9,7 @@ mod words;
 
 use std::path::Path;
 
-use tumble_record::plot::Plot;
+use tumble_record::plot::{Plot, Strokes};
 use tumble_record::{Channel, Completeness, MOST_CURVES, OutputFolder, Recording, Series};
 use tumble_scene::Loaded;
 use tumble_scene::expect::watched_steps;
@@ -75,7 +75,12 @@ pub fn compare(arguments: &CompareArguments, page: &mut Page) -> Result<Exit, Fa
     }
     page.line(words::best(&rows, several_steps, words::Promises::of(&loaded.scene)));
     page.line("");
-    let plot = Plot { title: format!("{name}  ·  {}", channel.title()), value_label, series: curves };
+    let plot = Plot {
+        title: format!("{name}  ·  {}", channel.title()),
+        value_label,
+        series: curves,
+        strokes: Strokes::Nested,
+    };
     let mut files = folder.prepare(Completeness::Whole)?;
     files.add("compare.csv", |out| words::write_csv(&rows, out))?;
     files.add("compare.svg", |out| out.write_all(plot.to_svg().as_bytes()))?;

@@ -82,12 +82,21 @@ struct Virtue {
     say: fn(&Row) -> String,
 }
 
-/// Expectations first, then how much of the tolerances is used.
+/// Few of them kept count against a run, claimed or not; then how much of the tolerances is used.
 fn unkept(row: &Row) -> Option<f64> {
-    let missed = row.claimed - row.met;
+    let missed = row.expectations - row.met;
     // Below a hundredth of a tolerance nobody needs to be better, and any ratio is better than one more expectation that is missed.
     let ratio = row.worst_ratio.unwrap_or(0.0).max(0.01);
     (row.claimed > 0).then(|| missed as f64 * 1e3 + ratio.min(999.0))
+}
+
+/// `a`, `a and b`, `a, b and c`.
+fn listed(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [only] => only.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
 }
 
 /// Which run is best for what.
@@ -147,7 +156,7 @@ fn claim(virtue: &Virtue, rows: &[&Row], with_step: bool) -> Option<String> {
     let best: Vec<&&Row> = rows.iter().filter(is_best).collect();
     let said = (virtue.say)(best.first()?);
     let names: Vec<String> = best.iter().map(|row| row.label(with_step)).collect();
-    let names = if best.len() == rows.len() { "all alike".to_owned() } else { names.join(" and ") };
+    let names = if best.len() == rows.len() { "all alike".to_owned() } else { listed(&names) };
     Some(format!("{}: {names} ({said})", virtue.name))
 }
 
