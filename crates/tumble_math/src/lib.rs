@@ -11,6 +11,7 @@ mod dim;
 mod inertia;
 mod matrix;
 mod pose;
+mod principal;
 mod rotation;
 pub mod trig;
 mod vector;

@@ -13,6 +13,7 @@
 //! ```
 //!
 //! - [`planar`]: [`Rod`], [`Disc`], [`ConvexPolygon`], [`HalfPlane`] and the enum over them, [`PlanarShape`];
+//! - [`spatial`]: spheres, rods, capsules, boxes, convex hulls, cylinders, cones, half-spaces and [`SpatialShape`];
 //! - [`mass`]: [`MassProperties`] and the parallel-axis theorem, in the plane and in space.
 //!
 //! ```
@@ -28,9 +29,15 @@
 //! ```
 
 pub mod error;
+mod given;
 pub mod mass;
 pub mod planar;
+pub mod spatial;
 
 pub use error::ShapeError;
+pub use given::MassError;
 pub use mass::{MassDim, MassProperties};
 pub use planar::{ConvexPolygon, Disc, HalfPlane, PlanarShape, Rod};
+pub use spatial::{
+    Capsule, Cone, ConvexHull, Cuboid, Cylinder, HalfSpace, SpatialRod, SpatialShape, SpatialShapeError, Sphere,
+};
