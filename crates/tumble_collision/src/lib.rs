@@ -27,6 +27,7 @@ pub mod manifold;
 pub mod narrow;
 
 pub use broad::{BroadPhase, OrientedBox, PairChanges, Volume};
-pub use manifold::{ContactKind, ContactPoint, CornerOf, FeatureId, Manifold, PlanarManifold};
+pub use manifold::{ContactKind, ContactPoint, CornerOf, FeatureId, Manifold, PlanarManifold, SpatialManifold};
 pub use narrow::planar::collide;
-pub use narrow::{PlanarQuery, Query};
+pub use narrow::spatial::collide as collide_spatial;
+pub use narrow::{PlanarQuery, Query, SpatialQuery};

@@ -10,7 +10,7 @@
 
 use std::fmt;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use tumble_math::Vector;
 
 /// Which kinds of feature meet at a contact point. The list is closed; the names are those of `contacts.csv`.
@@ -61,8 +61,9 @@ impl fmt::Display for ContactKind {
 
 /// Which corner of which shape made a point, so that the same physical point is known again in the next step.
 ///
-/// The two highest bits say whose corner it is (a's, b's, or one of each); two times fifteen bits hold the corners' numbers.
-/// The side that a corner touches is left out: a point keeps its id when the two shapes swap reference face.
+/// The two highest bits say whose corner it is (a's, b's, one of each, or none: two edges that cross); two times fifteen bits hold
+/// the numbers of the corners or edges. The side that a corner touches is left out: a point keeps its id when the two shapes swap
+/// reference face.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FeatureId(pub u32);
 
@@ -83,6 +84,21 @@ impl FeatureId {
     /// Corner `vertex_a` of a on corner `vertex_b` of b.
     pub const fn vertices(vertex_a: usize, vertex_b: usize) -> Self {
         Self(2 << 30 | Self::vertex_of_a(vertex_a).0 | vertex_b as u32 & Self::INDEX_MASK)
+    }
+
+    /// Edge `edge_a` of a across edge `edge_b` of b.
+    pub const fn edges(edge_a: usize, edge_b: usize) -> Self {
+        Self(3 << 30 | Self::vertex_of_a(edge_a).0 | edge_b as u32 & Self::INDEX_MASK)
+    }
+
+    /// The id when a and b change places.
+    pub(crate) const fn flipped(self) -> Self {
+        let (a, b) = (self.0 >> Self::INDEX_BITS & Self::INDEX_MASK, self.0 & Self::INDEX_MASK);
+        match self.0 >> 30 {
+            0 => Self::vertex_of_b(a as usize),
+            1 => Self::vertex_of_a(b as usize),
+            tag => Self(tag << 30 | b << Self::INDEX_BITS | a),
+        }
     }
 
     /// Whose corner it is.
@@ -108,7 +124,7 @@ pub enum CornerOf {
     A,
     /// Shape b's, on a side of a.
     B,
-    /// One of each.
+    /// One of each, or an edge of each.
     Both,
 }
 
@@ -128,7 +144,8 @@ pub struct ContactPoint<V> {
 /// Up to `N` contact points of a pair, sharing one normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Manifold<V, const N: usize> {
-    /// Unit vector from a to b, in world axes; zero in a manifold without points.
+    /// Unit vector from a to b, in world axes. In a manifold without points: a direction along which the shapes are apart, if one
+    /// is remembered, or zero.
     pub normal: V,
     points: [ContactPoint<V>; N],
     count: u8,
@@ -136,6 +153,9 @@ pub struct Manifold<V, const N: usize> {
 
 /// The contact of two shapes of the plane: a point, or the two ends of a line.
 pub type PlanarManifold = Manifold<DVec2, 2>;
+
+/// The contact of two shapes of space: up to four points that span what carries.
+pub type SpatialManifold = Manifold<DVec3, 4>;
 
 impl<V: Vector, const N: usize> Manifold<V, N> {
     const UNUSED: ContactPoint<V> =
@@ -181,6 +201,17 @@ impl<V: Vector, const N: usize> Manifold<V, N> {
     /// The point made by a feature.
     pub fn point_of(&self, feature: FeatureId) -> Option<&ContactPoint<V>> {
         self.points().iter().find(|point| point.feature == feature)
+    }
+}
+
+impl SpatialManifold {
+    /// The same contact with a and b in each other's place.
+    pub(crate) fn flipped(&self) -> Self {
+        let mut flipped = Self::along(-self.normal);
+        for point in self.points() {
+            flipped.insert(ContactPoint { feature: point.feature.flipped(), ..*point });
+        }
+        flipped
     }
 }
 

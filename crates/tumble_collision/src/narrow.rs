@@ -1,10 +1,11 @@
 //! Narrow phase: the contact points of one pair of shapes.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::manifold::Manifold;
 
 pub mod planar;
+pub mod spatial;
 
 /// What is asked about a pair, besides its shapes and poses.
 #[derive(Clone, Copy, Debug)]
@@ -23,3 +24,6 @@ pub struct Query<'a, V, const N: usize> {
 
 /// A query about two shapes of the plane.
 pub type PlanarQuery<'a> = Query<'a, DVec2, 2>;
+
+/// A query about two shapes of space.
+pub type SpatialQuery<'a> = Query<'a, DVec3, 4>;

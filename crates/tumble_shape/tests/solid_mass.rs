@@ -231,7 +231,7 @@ fn inertia_given_outright_is_checked() {
 #[test]
 fn solids_come_from_a_strategy_that_makes_them_all() {
     // Guards the property tests above: a strategy that never made a cone would test none.
-    use proptest::strategy::ValueTree;
+    use proptest::strategy::{Strategy, ValueTree};
     let mut runner = proptest::test_runner::TestRunner::new(config(1));
     let names: std::collections::BTreeSet<String> = (0..200)
         .map(|_| format!("{:?}", solid().new_tree(&mut runner).unwrap().current()))

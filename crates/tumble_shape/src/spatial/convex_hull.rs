@@ -66,6 +66,8 @@ pub struct Edge {
     pub vertices: [u32; 2],
     /// The face on the left seen from outside, then the one on the right.
     pub faces: [u32; 2],
+    /// Cosine of the angle between their normals [1].
+    pub cosine: f64,
 }
 
 impl ConvexHull {
@@ -122,8 +124,9 @@ impl ConvexHull {
             for side in [side, other_side] {
                 sides[side].edge = edges.len() as u32;
             }
-            let faces = if forward { [face, other_face] } else { [other_face, face] };
-            edges.push(Edge { vertices: [low, high], faces });
+            let pair = if forward { [face, other_face] } else { [other_face, face] };
+            let [left, right] = pair.map(|face| faces[face as usize].normal);
+            edges.push(Edge { vertices: [low, high], faces: pair, cosine: left.dot(right) });
         }
 
         let mut hull = Self {

@@ -1,0 +1,69 @@
+//! A face and what lies on it.
+
+use glam::DVec3;
+use tumble_shape::{ConvexHull, spatial::Face};
+
+use super::Pair;
+use super::cut::{Cut, Source};
+use super::draft::{Draft, Feature, Owner, feature_id, vertex_id};
+use super::reduce;
+use crate::manifold::{ContactKind, SpatialManifold};
+
+/// Smallest height of the points of a cut; infinite without any [m].
+pub(super) fn lowest(cut: &Cut) -> f64 {
+    cut.iter().map(|point| point.height).fold(f64::INFINITY, f64::min)
+}
+
+/// The manifold of a cut above a face of one of the shapes; `round` is the radius of the other one [m].
+pub(super) fn manifold(pair: &Pair, owner: Owner, face: &Face, mut cut: Cut, round: f64) -> SpatialManifold {
+    let margin = pair.query.margin;
+    cut.retain(|point| point.height - round <= margin);
+    reduce::to_four(&mut cut, face.normal, pair.preference());
+    let (frame, normal) = match owner {
+        Owner::A => (&pair.a_in_world, face.normal),
+        Owner::B => (&pair.b_in_world, -face.normal),
+    };
+    let mut draft = Draft::new(frame, normal, margin);
+    for point in &cut {
+        let (feature, kind) = match point.source {
+            Source::Incident(vertex) => (vertex_id(owner.other(), vertex), ContactKind::VertexFace),
+            Source::Reference(vertex) => (vertex_id(owner, vertex), ContactKind::VertexFace),
+            Source::Crossing { incident, reference } => {
+                let edges = (Feature::Edge(incident), Feature::Edge(reference));
+                let (of_a, of_b) = if owner == Owner::A { (edges.1, edges.0) } else { edges };
+                (feature_id(of_a, of_b), ContactKind::EdgeEdge)
+            }
+        };
+        let separation = point.height - round;
+        let middle = point.place - face.normal * (round + 0.5 * separation);
+        draft.push(middle, separation, feature, if round > 0.0 { ContactKind::RoundFace } else { kind });
+    }
+    draft.finish()
+}
+
+/// The face of a hull that faces a direction (in its own frame) most squarely.
+pub(super) fn facing(hull: &ConvexHull, direction: DVec3) -> &Face {
+    let mut best = (f64::INFINITY, &hull.faces()[0]);
+    for face in hull.faces() {
+        let slope = face.normal.dot(direction);
+        if slope < best.0 {
+            best = (slope, face);
+        }
+    }
+    best.1
+}
+
+/// Of the faces around the vertex that is lowest along a direction (in the hull's own frame), the one that faces it most squarely.
+pub(super) fn facing_at_lowest(hull: &ConvexHull, direction: DVec3) -> (&Face, u32) {
+    let height = |vertex: u32| direction.dot(hull.vertices()[vertex as usize]);
+    let vertices = 0..hull.vertices().len() as u32;
+    let lowest = vertices.fold(0, |lowest, vertex| if height(vertex) < height(lowest) { vertex } else { lowest });
+    let mut best = (f64::INFINITY, &hull.faces()[0]);
+    for face in hull.faces() {
+        let slope = face.normal.dot(direction);
+        if slope < best.0 && hull.sides(face).iter().any(|side| side.vertex == lowest) {
+            best = (slope, face);
+        }
+    }
+    (best.1, lowest)
+}

@@ -1,0 +1,111 @@
+//! Polyhedron and polyhedron.
+
+use glam::DVec3;
+use tumble_shape::{ConvexHull, Cuboid};
+
+use super::Pair;
+use super::axis::{Axes, Axis, AxisOf, Limits, Search};
+use super::draft::{Draft, Feature, Owner, feature_id};
+use super::{boxes, closest, cut, face, search, segment};
+use crate::manifold::{ContactKind, SpatialManifold};
+
+/// Contact points of two polyhedra, with the boxes they are, if both are.
+pub(super) fn collide(
+    pair: &Pair,
+    a: &ConvexHull,
+    b: &ConvexHull,
+    cuboids: Option<(&Cuboid, &Cuboid)>,
+) -> SpatialManifold {
+    let limits = Limits { margin: pair.query.margin, preference: pair.preference(), flush: pair.flush() };
+    if let Some(normal) = pair.remembered_gap() {
+        let gap = match cuboids {
+            Some((a, b)) => boxes::along(a, b, &pair.b_in_a, normal),
+            None => search::along(a, b, &pair.b_in_a, normal),
+        };
+        if gap > limits.margin {
+            return pair.apart(normal);
+        }
+    }
+    let search = match cuboids {
+        Some((a, b)) => boxes::search(a, b, &pair.b_in_a, &limits),
+        None => search::search(a, b, &pair.b_in_a, &limits),
+    };
+    let axes = match search {
+        Search::Apart(normal) => return pair.apart(normal),
+        Search::Near(axes) => axes,
+    };
+    if axes.flush_across {
+        return pair.apart(axes.best().normal);
+    }
+    contact(pair, a, b, &axes)
+}
+
+fn contact(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axes: &Axes) -> SpatialManifold {
+    let best = axes.best();
+    let tolerance = pair.preference() + pair.rounding();
+    let closest = || closest::manifold(pair, a, b.vertices(), Some(b), 0.0, best.normal);
+    if let AxisOf::Edges(i, j) = best.of {
+        let (on_a, on_b) = crossing(pair, a, i, b, j);
+        // Apart, and yet the edges pass each other beyond their ends: closest elsewhere.
+        if best.separation > 0.0
+            && on_a.distance(on_b) > best.separation + tolerance
+            && let Some(manifold) = closest()
+        {
+            return manifold;
+        }
+        let mut draft = Draft::new(&pair.a_in_world, best.normal, pair.query.margin);
+        let feature = feature_id(Feature::Edge(i as u32), Feature::Edge(j as u32));
+        draft.push((on_a + on_b) * 0.5, best.separation, feature, ContactKind::EdgeEdge);
+        return draft.finish();
+    }
+    on_face(pair, a, b, best, tolerance).or_else(closest).unwrap_or_else(|| single(pair, a, b, best))
+}
+
+/// What lies on the face of an axis; `None` if the shapes are apart and come closer elsewhere.
+fn on_face(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axis: &Axis, tolerance: f64) -> Option<SpatialManifold> {
+    let (owner, number, reference, incident) = match axis.of {
+        AxisOf::FaceB(face) => (Owner::B, face, b, a),
+        AxisOf::FaceA(face) | AxisOf::Edges(face, _) => (Owner::A, face, a, b),
+    };
+    let a_in_b;
+    let place = if owner == Owner::A {
+        &pair.b_in_a
+    } else {
+        a_in_b = pair.b_in_a.inverse();
+        &a_in_b
+    };
+    let reference_face = &reference.faces()[number];
+    let down = place.unturned(reference_face.normal);
+    let deep_enough = |cut: &cut::Cut| face::lowest(cut) <= axis.separation + tolerance;
+    let facing = face::facing(incident, down);
+    let mut cut = cut::polygon(reference, reference_face, incident, facing, place);
+    if !deep_enough(&cut) {
+        // The face that faces most squarely does not have the nearest vertex; one around that vertex has.
+        let (facing, _) = face::facing_at_lowest(incident, down);
+        cut = cut::polygon(reference, reference_face, incident, facing, place);
+        if axis.separation > 0.0 && !deep_enough(&cut) || cut.is_empty() {
+            return None;
+        }
+    }
+    Some(face::manifold(pair, owner, reference_face, cut, 0.0))
+}
+
+/// Overlapping, yet nothing faces the reference face: its deepest vertex alone.
+fn single(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axis: &Axis) -> SpatialManifold {
+    let down = pair.b_in_a.unturned(axis.normal);
+    let (_, vertex_b) = face::facing_at_lowest(b, down);
+    let (_, vertex_a) = face::facing_at_lowest(a, -axis.normal);
+    let (on_a, on_b) = (a.vertices()[vertex_a as usize], pair.b_in_a.point(b.vertices()[vertex_b as usize]));
+    let mut draft = Draft::new(&pair.a_in_world, axis.normal, pair.query.margin);
+    let feature = feature_id(Feature::Vertex(vertex_a), Feature::Vertex(vertex_b));
+    draft.push((on_a + on_b) * 0.5, axis.separation, feature, ContactKind::VertexVertex);
+    draft.finish()
+}
+
+/// Closest points of two edges, in the frame of a [m].
+fn crossing(pair: &Pair, a: &ConvexHull, i: usize, b: &ConvexHull, j: usize) -> (DVec3, DVec3) {
+    let p = a.edges()[i].vertices.map(|vertex| a.vertices()[vertex as usize]);
+    let q = b.edges()[j].vertices.map(|vertex| pair.b_in_a.point(b.vertices()[vertex as usize]));
+    let (s, t) = segment::closest(p, q);
+    (p[0].lerp(p[1], s), q[0].lerp(q[1], t))
+}
