@@ -85,9 +85,9 @@ fn time(mut run: impl FnMut(usize)) -> f64 {
 
 fn measure(name: &str, case: &Case, noise: &mut Noise) {
     let later: Vec<[Pose<Spatial>; 2]> = case.poses.iter().map(|[a, b]| [nudged(a, noise), nudged(b, noise)]).collect();
-    let query = |previous| SpatialQuery { margin: MARGIN, flush_tolerance: 0.01, previous };
     let own = |poses: &[Pose<Spatial>; 2], previous: Option<&SpatialManifold>| {
-        collide_spatial(&case.a.own, &poses[0], &case.b.own, &poses[1], &query(previous))
+        let query = SpatialQuery { margin: MARGIN, flush_tolerance: 0.01, previous };
+        collide_spatial(&case.a.own, &poses[0], &case.b.own, &poses[1], &query)
     };
     let before: Vec<SpatialManifold> = case.poses.iter().map(|poses| own(poses, None)).collect();
     let dispatcher = DefaultQueryDispatcher;
@@ -104,7 +104,7 @@ fn measure(name: &str, case: &Case, noise: &mut Noise) {
 
     let mut best = [f64::INFINITY; 4];
     for _ in 0..ROUNDS {
-        let mut empty: Vec<Vec<ContactManifold<(), ()>>> = vec![Vec::with_capacity(1); PAIRS];
+        let mut empty: Vec<Vec<ContactManifold<(), ()>>> = (0..PAIRS).map(|_| Vec::with_capacity(1)).collect();
         let mut again = peer_before.clone();
         let times = [
             time(|i| {

@@ -17,12 +17,14 @@
 //! The set of pairs depends on the fat volumes alone, never on the order of insertion or the form of the tree.
 
 mod oriented;
+mod oriented_spatial;
 mod tree;
 mod volume;
 
 use tumble_math::Vector;
 
 pub use oriented::OrientedBox;
+pub use oriented_spatial::SpatialOrientedBox;
 pub use volume::Volume;
 
 use tree::Tree;

@@ -1,7 +1,7 @@
 //! Which shapes are near, and where exactly they touch. Nothing here changes a velocity.
 //!
 //! - [`broad`]: [`BroadPhase`] keeps the set of pairs whose grown bounds overlap, at a cost that follows what moved;
-//! - [`narrow`]: [`collide`] finds the contact points of one pair as a [`Manifold`];
+//! - [`narrow`]: [`collide`] finds the contact points of one pair as a [`Manifold`], [`collide_spatial`] those of a pair in space;
 //! - [`manifold`]: what a manifold is: points that share a normal, each with a separation, a feature id and a kind.
 //!
 //! ```
@@ -26,7 +26,7 @@ pub mod broad;
 pub mod manifold;
 pub mod narrow;
 
-pub use broad::{BroadPhase, OrientedBox, PairChanges, Volume};
+pub use broad::{BroadPhase, OrientedBox, PairChanges, SpatialOrientedBox, Volume};
 pub use manifold::{ContactKind, ContactPoint, CornerOf, FeatureId, Manifold, PlanarManifold, SpatialManifold};
 pub use narrow::planar::collide;
 pub use narrow::spatial::collide as collide_spatial;

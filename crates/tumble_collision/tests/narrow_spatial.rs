@@ -7,10 +7,12 @@ use std::f64::consts::FRAC_PI_4;
 use glam::{DVec3, dvec3};
 use proptest::prelude::{any, prop_assert, prop_assert_eq, proptest};
 use spatial::{
-    after, assert_same, at, boxed, config, floor, hull, listed, moved, polyhedron, pose, query, rod, rotation, shape,
-    sphere, swapped, turned, vector,
+    after, assert_same, at, best_separation, boxed, config, cuboid, floor, hull, listed, moved, polyhedron, pose,
+    query, rod, rotation, shape, sphere, swapped, turned, vector,
 };
-use tumble_collision::{ContactKind, FeatureId, SpatialManifold, SpatialQuery, collide_spatial as collide};
+use tumble_collision::{
+    ContactKind, FeatureId, SpatialManifold, SpatialOrientedBox, SpatialQuery, collide_spatial as collide,
+};
 use tumble_math::{Pose, Rotation, Spatial, SpatialRotation};
 use tumble_shape::{ConvexHull, Cuboid, HalfSpace, SpatialShape};
 
@@ -314,5 +316,25 @@ fn a_pose_that_is_not_finite_makes_no_contact() {
         for b in [sphere(0.5), rod(1.0, 0.0), boxed(0.5, 0.5, 0.5)] {
             assert!(collide(&a, &at(0.0, 0.0, 0.0), &b, &nowhere, &query(0.1, 1e-3)).is_empty(), "{a:?} {b:?}");
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(config(3000))]
+
+    #[test]
+    fn oriented_boxes_of_shapes_that_touch_overlap(a in shape(), b in shape(), pose_a in pose(0.5), pose_b in pose(2.0), margin in 0.0..0.2_f64) {
+        let around = |shape, pose| SpatialOrientedBox::around(shape, pose, margin).unwrap();
+        let (box_a, box_b) = (around(&a, &pose_a), around(&b, &pose_b));
+        let touching = !collide(&a, &pose_a, &b, &pose_b, &query(2.0 * margin, 0.0)).is_empty();
+        prop_assert!(box_a.overlaps(&box_b) || !touching);
+        prop_assert_eq!(box_a.overlaps(&box_b), box_b.overlaps(&box_a));
+    }
+
+    #[test]
+    fn oriented_boxes_of_boxes_are_apart_exactly_when_the_boxes_are(a in cuboid(), b in cuboid(), pose_a in pose(0.5), pose_b in pose(1.5)) {
+        let around = |shape, pose| SpatialOrientedBox::around(shape, pose, 0.0).unwrap();
+        let separation = best_separation(&a, &pose_a, &b, &pose_b);
+        prop_assert_eq!(around(&a, &pose_a).overlaps(&around(&b, &pose_b)), separation <= 1e-12);
     }
 }

@@ -99,11 +99,13 @@ fn complaint(
             return Some(format!("depth {exact}, found {deepest}, {along} along the normal"));
         }
         let contact = parry::contact(&peer_a.pose, &*peer_a.shape, &peer_b.pose, &*peer_b.shape, 0.0).unwrap();
-        // EPA stops at about 1e-10; when it fails it reports more depth.
-        if let Some(contact) = contact
-            && contact.dist > along + 1e-8
-        {
-            return Some(format!("depth of parry {}, found {along}", contact.dist));
+        // EPA stops at about 1e-10. In some 3 of 100 000 pairs it gives up early and claims less depth than its own normal has.
+        if let Some(contact) = contact {
+            let normal = DVec3::new(contact.normal1.x, contact.normal1.y, contact.normal1.z);
+            let claimed = contact.dist.min(separation_along(normal, a, pose_a, b, pose_b));
+            if claimed > along + 1e-8 {
+                return Some(format!("depth of parry {claimed}, found {along}"));
+            }
         }
     }
     None

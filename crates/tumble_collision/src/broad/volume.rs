@@ -1,8 +1,8 @@
 //! Coarse volumes: boxes and half-spaces.
 
-use glam::DVec2;
-use tumble_math::{Bounds, Planar, Pose, Vector};
-use tumble_shape::PlanarShape;
+use glam::{DVec2, DVec3};
+use tumble_math::{Bounds, Planar, Pose, Spatial, Vector};
+use tumble_shape::{PlanarShape, SpatialShape};
 
 /// Where a shape may be, coarsely.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +63,19 @@ impl Volume<DVec2> {
         match shape {
             PlanarShape::HalfPlane(half_plane) => {
                 let posed = half_plane.posed(pose);
+                Self::HalfSpace { normal: posed.normal(), offset: posed.offset() }
+            }
+            _ => Self::Box(shape.bounds(pose).unwrap_or(Bounds::empty())),
+        }
+    }
+}
+
+impl Volume<DVec3> {
+    /// The volume of a shape in a pose.
+    pub fn of_spatial(shape: &SpatialShape, pose: &Pose<Spatial>) -> Self {
+        match shape {
+            SpatialShape::HalfSpace(half_space) => {
+                let posed = half_space.posed(pose);
                 Self::HalfSpace { normal: posed.normal(), offset: posed.offset() }
             }
             _ => Self::Box(shape.bounds(pose).unwrap_or(Bounds::empty())),

@@ -10,7 +10,7 @@
 //!
 //! A box looks alike from both sides of an axis, so every one of these is a true separation, and no arcs need to be compared.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use tumble_shape::{ConvexHull, Cuboid};
 
 use super::axis::{Axes, Axis, AxisOf, FlushFaces, Limits, Search};
@@ -66,8 +66,9 @@ pub(super) fn search(a: &Cuboid, b: &Cuboid, b_in_a: &Place, limits: &Limits) ->
 
     let mut edges: Option<(f64, DVec3, usize, usize)> = None;
     let mut least = face.separation + limits.preference;
-    for (j, (u, u_abs)) in r.iter().zip(&abs).enumerate() {
+    for j in 0..3 {
         let (j1, j2) = ((j + 1) % 3, (j + 2) % 3);
+        let (u, u_abs, abs_1, abs_2) = (r[j], abs[j], abs[j1], abs[j2]);
         for i in 0..3 {
             // n = a_i × b_j has the components (0, −u_k, u_l) in the axes i, k, l.
             let (k, l) = ((i + 1) % 3, (i + 2) % 3);
@@ -77,7 +78,7 @@ pub(super) fn search(a: &Cuboid, b: &Cuboid, b_in_a: &Place, limits: &Limits) ->
             }
             let distance = (t[l] * u[k] - t[k] * u[l]).abs();
             // |b_j1 · (a_i × b_j)| = |a_i · b_j2|.
-            let reach = h_a[k] * u_abs[l] + h_a[l] * u_abs[k] + h_b[j1] * abs[j2][i] + h_b[j2] * abs[j1][i];
+            let reach = h_a[k] * u_abs[l] + h_a[l] * u_abs[k] + h_b[j1] * abs_2[i] + h_b[j2] * abs_1[i];
             let scaled = distance - reach;
             // Compares without the root: scaled / √squared > least.
             let larger = if least >= 0.0 {
@@ -98,16 +99,12 @@ pub(super) fn search(a: &Cuboid, b: &Cuboid, b_in_a: &Place, limits: &Limits) ->
     let edges = edges.map(|(separation, n, i, j)| {
         let edge_a = edge_towards(a.hull(), i, n);
         let edge_b = edge_towards(b.hull(), j, -DVec3::new(r[0].dot(n), r[1].dot(n), r[2].dot(n)));
-        Axis { of: AxisOf::Edges(edge_a, edge_b), normal: frame_times(frame, n), separation }
+        Axis { of: AxisOf::Edges(edge_a, edge_b), normal: *frame * n, separation }
     });
     if let Some(axis) = edges.filter(|axis| axis.separation > limits.margin) {
         return Search::Apart(axis.normal);
     }
     Search::Near(Axes { face, edges, flush_across: flush.across(edges.as_ref().unwrap_or(&face)) })
-}
-
-fn frame_times(frame: &DMat3, v: DVec3) -> DVec3 {
-    *frame * v
 }
 
 /// The edge along a box's axis that is farthest in a direction given along the box's axes.

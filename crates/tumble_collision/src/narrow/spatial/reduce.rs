@@ -1,40 +1,49 @@
 //! At most four points carry a face: those that span the most.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
 
 use super::cut::{Cut, CutPoint};
 
 /// Share by which another choice must be better to be taken, so that rounding does not change it [1].
 const BETTER: f64 = 1e-9;
 
-/// Chooses, from points in the order of a convex polygon, four of the largest area among those with a deepest point.
+/// Chooses, from points in the order of a convex polygon, four that span much, a deepest one among them.
 ///
-/// Points that are as deep as the deepest, to a tolerance [m], may all stand for it: so four flush corners win over a fifth one that
-/// is deeper by a hair. Every other four with such a point span at most the area of these.
+/// Of the points that are as deep as the deepest, to a tolerance [m], the one farthest from the middle of all is taken: a corner of the
+/// polygon that sticks out, and not a fifth one that is deeper by a hair. With it, no other three span more.
 pub(super) fn to_four(points: &mut Cut, normal: DVec3, tolerance: f64) {
     if points.len() <= 4 {
         return;
     }
     let deepest = points.iter().map(|point| point.height).fold(f64::INFINITY, f64::min);
-    let mut best = (f64::NEG_INFINITY, [0, 1, 2, 3]);
-    for first in (0..points.len()).filter(|&i| points[i].height <= deepest + tolerance) {
-        let (area, four) = widest_with(points, normal, first);
-        if area > best.0 * (1.0 + BETTER) {
-            best = (area, four);
+    let middle = points.iter().fold(DVec3::ZERO, |sum, point| sum + point.place) * (1.0 / points.len() as f64);
+    let mut first = (0.0, 0);
+    for (i, point) in points.iter().enumerate().filter(|(_, point)| point.height <= deepest + tolerance) {
+        let reach = point.place.distance_squared(middle);
+        if reach > first.0 * (1.0 + BETTER) {
+            first = (reach, i);
         }
     }
-    let four: Cut = best.1.iter().map(|&i| points[i]).collect();
+    let four: Cut = widest_with(points, normal, first.1).iter().map(|&i| points[i]).collect();
     *points = four;
 }
 
-/// The widest quadrilateral with a given corner, and twice its area [m²].
+/// The widest quadrilateral with a given corner.
 ///
 /// For each opposite corner k, the two others are the farthest from the diagonal on either side; as k goes round they only move
 /// forward, because the polygon is convex.
-fn widest_with(points: &[CutPoint], normal: DVec3, first: usize) -> (f64, [usize; 4]) {
+fn widest_with(points: &[CutPoint], normal: DVec3, first: usize) -> [usize; 4] {
     let count = points.len();
-    let at = |i: usize| points[(first + i) % count].place;
-    let span = |i: usize, k: usize| normal.dot((at(k) - at(0)).cross(at(i) - at(0))).abs();
+    // In the plane of the polygon, seen from the first corner.
+    let u = normal.any_orthonormal_vector();
+    let v = normal.cross(u);
+    let flat = |i: usize| {
+        let arm = points[(first + i) % count].place - points[first].place;
+        DVec2::new(u.dot(arm), v.dot(arm))
+    };
+    let at: SmallVec<[DVec2; 12]> = (0..count).map(flat).collect();
+    let span = |i: usize, k: usize| at[k].perp_dot(at[i]).abs();
     let mut best = (f64::NEG_INFINITY, [0, 1, 2, 3]);
     let (mut j, mut l) = (1, 3);
     for k in 2..count - 1 {
@@ -50,5 +59,5 @@ fn widest_with(points: &[CutPoint], normal: DVec3, first: usize) -> (f64, [usize
             best = (area, [0, j, k, l]);
         }
     }
-    (best.0, best.1.map(|i| (first + i) % count))
+    best.1.map(|i| (first + i) % count)
 }
