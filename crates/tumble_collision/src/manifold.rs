@@ -13,6 +13,8 @@ use std::fmt;
 use glam::{DVec2, DVec3};
 use tumble_math::Vector;
 
+use crate::narrow::spatial::AxisMemory;
+
 /// Which kinds of feature meet at a contact point. The list is closed; the names are those of `contacts.csv`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ContactKind {
@@ -141,28 +143,40 @@ pub struct ContactPoint<V> {
     pub kind: ContactKind,
 }
 
+/// What a manifold remembers for the next query, besides its points.
+pub trait Memory: Copy {
+    /// Nothing.
+    const NONE: Self;
+}
+
+impl Memory for () {
+    const NONE: Self = ();
+}
+
 /// Up to `N` contact points of a pair, sharing one normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Manifold<V, const N: usize> {
+pub struct Manifold<V, const N: usize, M = ()> {
     /// Unit vector from a to b, in world axes. In a manifold without points: a direction along which the shapes are apart, if one
     /// is remembered, or zero.
     pub normal: V,
     points: [ContactPoint<V>; N],
     count: u8,
+    /// What the next query may start from.
+    memory: M,
 }
 
 /// The contact of two shapes of the plane: a point, or the two ends of a line.
 pub type PlanarManifold = Manifold<DVec2, 2>;
 
 /// The contact of two shapes of space: up to four points that span what carries.
-pub type SpatialManifold = Manifold<DVec3, 4>;
+pub type SpatialManifold = Manifold<DVec3, 4, AxisMemory>;
 
-impl<V: Vector, const N: usize> Manifold<V, N> {
+impl<V: Vector, const N: usize, M: Memory> Manifold<V, N, M> {
     const UNUSED: ContactPoint<V> =
         ContactPoint { point: V::ZERO, separation: 0.0, feature: FeatureId(0), kind: ContactKind::VertexFace };
 
     /// No contact.
-    pub const EMPTY: Self = Self { normal: V::ZERO, points: [Self::UNUSED; N], count: 0 };
+    pub const EMPTY: Self = Self { normal: V::ZERO, points: [Self::UNUSED; N], count: 0, memory: M::NONE };
 
     /// A manifold to which points are added along this normal.
     pub(crate) fn along(normal: V) -> Self {
@@ -179,6 +193,16 @@ impl<V: Vector, const N: usize> Manifold<V, N> {
         self.points.copy_within(place..count, place + 1);
         self.points[place] = point;
         self.count += 1;
+    }
+
+    /// The same manifold with something to remember.
+    pub(crate) fn remembering(self, memory: M) -> Self {
+        Self { memory, ..self }
+    }
+
+    /// What it remembers.
+    pub(crate) fn memory(&self) -> M {
+        self.memory
     }
 
     /// The points, in the order of their feature ids.
@@ -205,7 +229,7 @@ impl<V: Vector, const N: usize> Manifold<V, N> {
 }
 
 impl SpatialManifold {
-    /// The same contact with a and b in each other's place.
+    /// The same contact with a and b in each other's place, without memory.
     pub(crate) fn flipped(&self) -> Self {
         let mut flipped = Self::along(-self.normal);
         for point in self.points() {
@@ -215,7 +239,7 @@ impl SpatialManifold {
     }
 }
 
-impl<V: Vector, const N: usize> Default for Manifold<V, N> {
+impl<V: Vector, const N: usize, M: Memory> Default for Manifold<V, N, M> {
     fn default() -> Self {
         Self::EMPTY
     }

@@ -323,6 +323,26 @@ proptest! {
     #![proptest_config(config(3000))]
 
     #[test]
+    fn a_remembered_axis_is_as_good_as_the_best_to_a_tenth_of_the_flush_tolerance(
+        a in polyhedron(), b in polyhedron(), pose_a in pose(0.3), pose_b in pose(0.9), step in vector(1e-4), turn in vector(2e-4),
+    ) {
+        let tolerance = 0.01;
+        let mut pose = pose_b;
+        let mut previous = SpatialManifold::EMPTY;
+        for i in 0..12 {
+            let query = SpatialQuery { previous: Some(&previous), ..query(0.0, tolerance) };
+            let manifold = collide(&a, &pose_a, &b, &pose, &query);
+            if let Some(deepest) = manifold.deepest_separation() {
+                let best = best_separation(&a, &pose_a, &b, &pose);
+                // Twice a tenth: edges yield to the better face by a tenth, and b's face to a's.
+                prop_assert!(deepest >= best - 2.001e-3 && deepest <= best + 2.001e-3, "step {i}: {best} {manifold:#?}");
+            }
+            previous = manifold;
+            pose = Pose { position: pose.position + step, rotation: pose.rotation.turned(turn) };
+        }
+    }
+
+    #[test]
     fn oriented_boxes_of_shapes_that_touch_overlap(a in shape(), b in shape(), pose_a in pose(0.5), pose_b in pose(2.0), margin in 0.0..0.2_f64) {
         let around = |shape, pose| SpatialOrientedBox::around(shape, pose, margin).unwrap();
         let (box_a, box_b) = (around(&a, &pose_a), around(&b, &pose_b));

@@ -47,7 +47,9 @@
 //! # Memory
 //!
 //! A manifold without points keeps the direction along which the shapes were apart. The next query tries it first; as long as it
-//! separates them, nothing else is looked at. Beyond that, and the side of crossing segments, nothing depends on the step before.
+//! separates them, nothing else is looked at. A manifold of polyhedra keeps its axis, and the search is left out as long as the
+//! axis is bound to be as good as the best, to the preference of step 1 (`memory.rs`). Beyond that, and the side of crossing segments,
+//! nothing depends on the step before.
 
 mod axis;
 mod boxes;
@@ -59,6 +61,7 @@ mod face;
 mod gjk;
 mod half_space;
 mod hulls;
+mod memory;
 mod place;
 mod reduce;
 mod round;
@@ -66,6 +69,8 @@ mod search;
 mod segment;
 mod segments;
 mod simplex;
+
+pub use self::memory::AxisMemory;
 
 use glam::DVec3;
 use tumble_math::{Pose, Spatial};

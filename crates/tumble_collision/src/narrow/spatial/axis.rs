@@ -23,21 +23,28 @@ pub(super) struct Axis {
     pub(super) separation: f64,
 }
 
-/// The axes that matter for a pair.
+/// The best axes of each sort.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Axes {
-    /// The face with the largest separation; of almost equal ones a's.
-    pub(super) face: Axis,
-    /// The pair of edges with the largest separation, if it is larger than the face's.
+pub(super) struct Found {
+    pub(super) face_a: Axis,
+    pub(super) face_b: Axis,
+    /// The pair of edges, if it is better than both faces.
     pub(super) edges: Option<Axis>,
-    /// Whether some face across the best axis is flush.
-    pub(super) flush_across: bool,
+    pub(super) flush: FlushFaces,
 }
 
-impl Axes {
-    /// The axis with the largest separation.
-    pub(super) fn best(&self) -> &Axis {
-        self.edges.as_ref().unwrap_or(&self.face)
+impl Found {
+    /// The largest separation over all directions [m].
+    pub(super) fn best(&self) -> f64 {
+        let faces = self.face_a.separation.max(self.face_b.separation);
+        self.edges.map_or(faces, |edges| edges.separation)
+    }
+
+    /// The axis that decides: a's face, unless another is better by the preference.
+    pub(super) fn choice(&self, limits: &Limits) -> Axis {
+        let b_is_better = self.face_b.separation > self.face_a.separation + limits.preference;
+        let face = if b_is_better { self.face_b } else { self.face_a };
+        self.edges.filter(|edges| edges.separation > face.separation + limits.preference).unwrap_or(face)
     }
 }
 
@@ -47,7 +54,7 @@ pub(super) enum Search {
     /// Along this unit vector (from a to b, in the frame of a) the two are further apart than asked.
     Apart(DVec3),
     /// None separates them that far.
-    Near(Axes),
+    Near(Found),
 }
 
 /// What a search for axes is asked.
@@ -65,20 +72,33 @@ pub(super) struct Limits {
 const ACROSS: f64 = 0.5;
 
 /// Remembers the few faces that lie flush, to compare them with the best axis once it is known.
-#[derive(Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct FlushFaces {
-    normals: [DVec3; 8],
+    normals: [DVec3; 4],
     count: usize,
+    /// By how much all other faces are from lying flush [m].
+    pub(super) clear: f64,
 }
 
 impl FlushFaces {
-    /// Notes a face with its separation [m]; of more than eight the rest is left out.
+    pub(super) const NONE: Self = Self { normals: [DVec3::ZERO; 4], count: 0, clear: f64::INFINITY };
+
+    /// Notes a face with its separation [m]; of more than four flush ones the rest is left out.
     #[inline]
     pub(super) fn note(&mut self, normal: DVec3, separation: f64, limits: &Limits) {
-        if separation.abs() <= limits.flush && limits.flush > 0.0 && self.count < self.normals.len() {
+        let beyond = separation.abs() - limits.flush;
+        if beyond > 0.0 || limits.flush == 0.0 {
+            self.clear = self.clear.min(beyond);
+        } else if self.count < self.normals.len() {
             self.normals[self.count] = normal;
             self.count += 1;
         }
+    }
+
+    /// Notes a face that is known to be deeper than flush, its separation at most `bound` [m].
+    #[inline]
+    pub(super) fn note_deep(&mut self, bound: f64, limits: &Limits) {
+        self.clear = self.clear.min(-bound - limits.flush);
     }
 
     /// Whether one of them runs across an axis.

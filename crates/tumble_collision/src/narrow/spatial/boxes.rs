@@ -13,7 +13,7 @@
 use glam::DVec3;
 use tumble_shape::{ConvexHull, Cuboid};
 
-use super::axis::{Axes, Axis, AxisOf, FlushFaces, Limits, Search};
+use super::axis::{Axis, AxisOf, FlushFaces, Found, Limits, Search};
 use super::place::Place;
 
 /// Squared sine below which two edges count as parallel [1].
@@ -34,38 +34,36 @@ pub(super) fn search(a: &Cuboid, b: &Cuboid, b_in_a: &Place, limits: &Limits) ->
     let along_a = t.abs() - h_a - (abs[0] * h_b.x + abs[1] * h_b.y + abs[2] * h_b.z);
     let along_b = t_b.abs() - h_b - DVec3::new(abs[0].dot(h_a), abs[1].dot(h_a), abs[2].dot(h_a));
 
-    let mut flush = FlushFaces::default();
-    let mut best: Option<Axis> = None;
-    let mut least = f64::NEG_INFINITY;
+    let mut flush = FlushFaces::NONE;
+    let mut face_a = Axis { of: AxisOf::FaceA(0), normal: DVec3::ZERO, separation: f64::NEG_INFINITY };
+    let mut face_b = face_a;
     for i in 0..3 {
         let upper = t[i] >= 0.0;
         let unit = frame.col(i);
         let normal = if upper { unit } else { -unit };
         flush.note(normal, along_a[i], limits);
-        if along_a[i] > least {
-            least = along_a[i];
-            best = Some(Axis { of: AxisOf::FaceA(2 * i + usize::from(upper)), normal, separation: least });
+        if along_a[i] > face_a.separation {
+            face_a = Axis { of: AxisOf::FaceA(2 * i + usize::from(upper)), normal, separation: along_a[i] };
         }
     }
-    least += limits.preference;
     for j in 0..3 {
         // The face of b that looks at a.
         let upper = t_b[j] < 0.0;
         let unit = b_axes.col(j);
         let normal = if upper { -unit } else { unit };
         flush.note(normal, along_b[j], limits);
-        if along_b[j] > least {
-            least = along_b[j];
-            best = Some(Axis { of: AxisOf::FaceB(2 * j + usize::from(upper)), normal, separation: least });
+        if along_b[j] > face_b.separation {
+            face_b = Axis { of: AxisOf::FaceB(2 * j + usize::from(upper)), normal, separation: along_b[j] };
         }
     }
-    let Some(face) = best else { return Search::Apart(DVec3::ZERO) };
-    if face.separation > limits.margin {
-        return Search::Apart(face.normal);
+    for face in [&face_a, &face_b] {
+        if face.separation > limits.margin {
+            return Search::Apart(face.normal);
+        }
     }
 
     let mut edges: Option<(f64, DVec3, usize, usize)> = None;
-    let mut least = face.separation + limits.preference;
+    let mut least = face_a.separation.max(face_b.separation);
     for j in 0..3 {
         let (j1, j2) = ((j + 1) % 3, (j + 2) % 3);
         let (u, u_abs, abs_1, abs_2) = (r[j], abs[j], abs[j1], abs[j2]);
@@ -104,7 +102,7 @@ pub(super) fn search(a: &Cuboid, b: &Cuboid, b_in_a: &Place, limits: &Limits) ->
     if let Some(axis) = edges.filter(|axis| axis.separation > limits.margin) {
         return Search::Apart(axis.normal);
     }
-    Search::Near(Axes { face, edges, flush_across: flush.across(edges.as_ref().unwrap_or(&face)) })
+    Search::Near(Found { face_a, face_b, edges, flush })
 }
 
 /// The edge along a box's axis that is farthest in a direction given along the box's axes.

@@ -59,6 +59,8 @@ struct Corner {
     place: DVec3,
     source: Source,
     on: On,
+    /// How far it is beyond the side at hand [m].
+    beyond: f64,
 }
 
 type Polygon = SmallVec<[Corner; 10]>;
@@ -69,6 +71,7 @@ pub(super) fn polygon(reference: &ConvexHull, face: &Face, incident: &ConvexHull
         place: place.point(incident.vertices()[side.vertex as usize]),
         source: Source::Incident(side.vertex),
         on: On::IncidentEdge(side.edge),
+        beyond: 0.0,
     });
     let mut polygon: Polygon = corners.collect();
     let sides = reference.sides(face);
@@ -76,16 +79,17 @@ pub(super) fn polygon(reference: &ConvexHull, face: &Face, incident: &ConvexHull
         let end = sides[if k + 1 == sides.len() { 0 } else { k + 1 }].vertex;
         let vertices = reference.vertices();
         let snap = SNAP * (vertices[end as usize] - vertices[side.vertex as usize]).abs().max_element();
-        let beyond = |corner: &Corner| side.outward.dot(corner.place) - side.offset;
-        // Mostly nothing is to be cut off.
-        if polygon.iter().all(|corner| beyond(corner) <= snap) {
+        for corner in &mut polygon {
+            corner.beyond = side.outward.dot(corner.place) - side.offset;
+        }
+        // Often nothing is to be cut off.
+        if polygon.iter().all(|corner| corner.beyond <= snap) {
             continue;
         }
         let mut kept = Polygon::new();
         let Some(mut from) = polygon.last() else { break };
-        let mut from_beyond = beyond(from);
         for to in &polygon {
-            let to_beyond = beyond(to);
+            let (from_beyond, to_beyond) = (from.beyond, to.beyond);
             let crossing = || {
                 let share = from_beyond / (from_beyond - to_beyond);
                 let source = match from.on {
@@ -100,22 +104,22 @@ pub(super) fn polygon(reference: &ConvexHull, face: &Face, incident: &ConvexHull
                 // Leaves; a corner on the border is itself the place where it does.
                 if from_beyond < -snap {
                     let (place, source) = crossing();
-                    kept.push(Corner { place, source, on: On::ReferenceSide(k) });
+                    kept.push(Corner { place, source, on: On::ReferenceSide(k), beyond: 0.0 });
                 } else if let Some(last) = kept.last_mut() {
                     last.on = On::ReferenceSide(k);
                 }
             } else if from_beyond > snap && to_beyond < -snap {
                 let (place, source) = crossing();
-                kept.push(Corner { place, source, on: from.on });
+                kept.push(Corner { place, source, on: from.on, beyond: 0.0 });
             }
             if to_beyond <= snap {
                 kept.push(*to);
             }
-            (from, from_beyond) = (to, to_beyond);
+            from = to;
         }
         // The first corner of the list was last as well: where the border was left there, the edge on it is known only now.
-        if from_beyond.abs() <= snap
-            && beyond(&polygon[0]) > snap
+        if from.beyond.abs() <= snap
+            && polygon[0].beyond > snap
             && let Some(last) = kept.last_mut()
         {
             last.on = On::ReferenceSide(k);

@@ -4,10 +4,11 @@ use glam::DVec3;
 use tumble_shape::{ConvexHull, Cuboid};
 
 use super::Pair;
-use super::axis::{Axes, Axis, AxisOf, Limits, Search};
+use super::axis::{Axis, AxisOf, Limits, Search};
 use super::draft::{Draft, Feature, Owner, feature_id};
+use super::memory::AxisMemory;
 use super::{boxes, closest, cut, face, search, segment};
-use crate::manifold::{ContactKind, SpatialManifold};
+use crate::manifold::{ContactKind, Memory, SpatialManifold};
 
 /// Contact points of two polyhedra, with the boxes they are, if both are.
 pub(super) fn collide(
@@ -26,22 +27,31 @@ pub(super) fn collide(
             return pair.apart(normal);
         }
     }
+    let memory = pair.query.previous.map_or(AxisMemory::NONE, SpatialManifold::memory);
+    if let Some(axis) = memory.still_best(pair, a, b, &limits) {
+        if axis.separation > limits.margin {
+            return pair.apart(axis.normal);
+        }
+        return contact(pair, a, b, &axis).remembering(memory);
+    }
     let search = match cuboids {
         Some((a, b)) => boxes::search(a, b, &pair.b_in_a, &limits),
         None => search::search(a, b, &pair.b_in_a, &limits),
     };
-    let axes = match search {
-        Search::Apart(normal) => return pair.apart(normal),
-        Search::Near(axes) => axes,
-    };
-    if axes.flush_across {
-        return pair.apart(axes.best().normal);
+    match search {
+        Search::Apart(normal) => pair.apart(normal),
+        Search::Near(found) => {
+            let axis = found.choice(&limits);
+            if found.flush.across(&axis) {
+                return pair.apart(axis.normal);
+            }
+            contact(pair, a, b, &axis).remembering(AxisMemory::new(pair, &found, &axis))
+        }
     }
-    contact(pair, a, b, &axes)
 }
 
-fn contact(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axes: &Axes) -> SpatialManifold {
-    let best = axes.best();
+/// What touches along an axis.
+fn contact(pair: &Pair, a: &ConvexHull, b: &ConvexHull, best: &Axis) -> SpatialManifold {
     let tolerance = pair.preference() + pair.rounding();
     let closest = || closest::manifold(pair, a, b.vertices(), Some(b), 0.0, best.normal);
     if let AxisOf::Edges(i, j) = best.of {

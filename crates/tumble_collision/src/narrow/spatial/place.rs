@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 use tumble_math::{Pose, Spatial};
 
 /// A frame seen from another: its axes and its origin. Matrices, because many points go through it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     pub(super) axes: DMat3,
     pub(super) origin: DVec3,

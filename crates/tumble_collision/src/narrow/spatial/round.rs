@@ -68,7 +68,7 @@ fn deepest(pair: &Pair, hull: &ConvexHull, ends: [DVec3; 2], radius: f64, axis: 
 
 /// The separating axis of a hull and a segment (or a point, both ends alike), all in the hull's frame.
 fn best_axis(hull: &ConvexHull, ends: [DVec3; 2], limits: &Limits) -> (Axis, FlushFaces) {
-    let mut flush = FlushFaces::default();
+    let mut flush = FlushFaces::NONE;
     let mut best = Axis { of: AxisOf::FaceA(0), normal: DVec3::ZERO, separation: f64::NEG_INFINITY };
     for (i, face) in hull.faces().iter().enumerate() {
         let separation = face.normal.dot(ends[0]).min(face.normal.dot(ends[1])) - face.offset;

@@ -16,7 +16,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 use tumble_shape::ConvexHull;
 
-use super::axis::{Axes, Axis, AxisOf, FlushFaces, Limits, Search};
+use super::axis::{Axis, AxisOf, FlushFaces, Found, Limits, Search};
 use super::place::Place;
 
 /// Squared sine below which two edges count as parallel: they make no axis that faces do not make better [1].
@@ -30,49 +30,72 @@ type Heights = SmallVec<[f64; 32]>;
 /// Searches the axes of polyhedra a and b, b's frame standing in a's.
 pub(super) fn search(a: &ConvexHull, b: &ConvexHull, b_in_a: &Place, limits: &Limits) -> Search {
     let a_in_b = b_in_a.inverse();
-    let mut flush = FlushFaces::default();
-    let mut best = None;
+    let mut flush = FlushFaces::NONE;
     // Heights of the one's centre above the other's faces.
     let above_a: Heights = heights(a, b_in_a.point(b.centre()));
     let above_b: Heights = heights(b, a_in_b.point(a.centre()));
 
-    for (of_a, hull, other, other_place, above) in [(true, a, b, b_in_a, &above_a), (false, b, a, &a_in_b, &above_b)] {
-        let mut least = best.map_or(f64::NEG_INFINITY, |best: Axis| best.separation + limits.preference);
-        let inner = other.inner_radius();
-        let mut look_at = |face: usize| {
-            let normal = hull.faces()[face].normal;
-            let in_other = other_place.unturned(normal);
-            let separation =
-                lowest(other.vertices(), in_other) + normal.dot(other_place.origin) - hull.faces()[face].offset;
-            let normal = if of_a { normal } else { -b_in_a.vector(normal) };
-            flush.note(normal, separation, limits);
-            if separation > least {
-                least = separation;
-                let of = if of_a { AxisOf::FaceA(face) } else { AxisOf::FaceB(face) };
-                best = Some(Axis { of, normal, separation });
-            }
-            least
-        };
-        // The face that the other shape is highest above comes first, and mostly stays the best.
-        let first = highest(above);
-        let mut least = look_at(first);
-        for (face, height) in above.iter().enumerate() {
-            let wanted = if limits.flush > 0.0 { least.min(-limits.flush) } else { least };
-            if face != first && height - inner > wanted {
-                least = look_at(face);
-            }
-        }
-        if let Some(axis) = best.filter(|axis| axis.separation > limits.margin) {
-            return Search::Apart(axis.normal);
-        }
+    let (face, separation) = best_face(a, b, b_in_a, &above_a, f64::NEG_INFINITY, limits, &mut flush, |normal| normal);
+    let face_a = Axis { of: AxisOf::FaceA(face), normal: a.faces()[face].normal, separation };
+    if separation > limits.margin {
+        return Search::Apart(face_a.normal);
     }
-    let Some(face) = best else { return Search::Apart(DVec3::ZERO) };
-    let least = face.separation + limits.preference;
+    let (face, separation) =
+        best_face(b, a, &a_in_b, &above_b, separation, limits, &mut flush, |normal| b_in_a.vector(normal));
+    let face_b = Axis { of: AxisOf::FaceB(face), normal: -b_in_a.vector(b.faces()[face].normal), separation };
+    if separation > limits.margin {
+        return Search::Apart(face_b.normal);
+    }
+    let least = face_a.separation.max(face_b.separation);
     let edges = search_edges([a, b], b_in_a, [&above_a, &above_b], least, limits.margin);
     if let Some(axis) = edges.filter(|axis| axis.separation > limits.margin) {
         return Search::Apart(axis.normal);
     }
-    Search::Near(Axes { face, edges, flush_across: flush.across(edges.as_ref().unwrap_or(&face)) })
+    Search::Near(Found { face_a, face_b, edges, flush })
+}
+
+/// The face of a hull along which another one is farthest, and the separation there [m]; at least the one that looks best is looked at,
+/// and others when they may be better than `least`.
+fn best_face(
+    hull: &ConvexHull,
+    other: &ConvexHull,
+    other_in_own: &Place,
+    above: &Heights,
+    least: f64,
+    limits: &Limits,
+    flush: &mut FlushFaces,
+    in_a: impl Fn(DVec3) -> DVec3,
+) -> (usize, f64) {
+    let inner = other.inner_radius();
+    // The face that the other shape is highest above comes first, and mostly stays the best.
+    let first = highest(above);
+    let mut best = (first, face_separation(hull, first, other, other_in_own));
+    flush.note(in_a(hull.faces()[first].normal), best.1, limits);
+    for (face, height) in above.iter().enumerate() {
+        let bound = height - inner;
+        let least = best.1.max(least);
+        let wanted = if limits.flush > 0.0 { least.min(-limits.flush) } else { least };
+        if face == first {
+            continue;
+        }
+        if bound <= wanted {
+            flush.note_deep(bound, limits);
+            continue;
+        }
+        let separation = face_separation(hull, face, other, other_in_own);
+        flush.note(in_a(hull.faces()[face].normal), separation, limits);
+        if separation > best.1 {
+            best = (face, separation);
+        }
+    }
+    best
+}
+
+/// The separation along the normal of a face [m].
+#[inline]
+pub(super) fn face_separation(hull: &ConvexHull, face: usize, other: &ConvexHull, other_in_own: &Place) -> f64 {
+    let face = &hull.faces()[face];
+    lowest(other.vertices(), other_in_own.unturned(face.normal)) + face.normal.dot(other_in_own.origin) - face.offset
 }
 
 /// The best pair of edges with a separation above `least` [m].
@@ -96,21 +119,7 @@ fn search_edges(
     for &i in &near_a {
         let one = EdgeInA::new(a, i as usize, None);
         for (other, &j) in edges_b.iter().zip(&near_b) {
-            if !arcs_cross(&one, other) {
-                continue;
-            }
-            let across = one.along.cross(other.along);
-            let squared = across.length_squared();
-            let lengths = one.along.length_squared() * other.along.length_squared();
-            if squared <= PARALLEL * lengths {
-                continue;
-            }
-            let outwards = if across.dot(one.normals[0] + one.normals[1]) < 0.0 { -1.0 } else { 1.0 };
-            let normal = across * (outwards / squared.sqrt());
-            let mut separation = normal.dot(other.on - one.on);
-            if squared <= NOISY * lengths {
-                separation = along(a, b, b_in_a, normal);
-            }
+            let Some((normal, separation)) = separation_of_edges(hulls, b_in_a, &one, other) else { continue };
             if separation > least {
                 least = separation;
                 best = Some(Axis { of: AxisOf::Edges(i as usize, j as usize), normal, separation });
@@ -123,20 +132,42 @@ fn search_edges(
     best
 }
 
+/// The separation along the direction square to two edges, if they make a face of the Minkowski difference.
+pub(super) fn separation_of_edges(
+    [a, b]: [&ConvexHull; 2],
+    b_in_a: &Place,
+    one: &EdgeInA,
+    other: &EdgeInA,
+) -> Option<(DVec3, f64)> {
+    if !arcs_cross(one, other) {
+        return None;
+    }
+    let across = one.along.cross(other.along);
+    let squared = across.length_squared();
+    let lengths = one.along.length_squared() * other.along.length_squared();
+    if squared <= PARALLEL * lengths {
+        return None;
+    }
+    let outwards = if across.dot(one.normals[0] + one.normals[1]) < 0.0 { -1.0 } else { 1.0 };
+    let normal = across * (outwards / squared.sqrt());
+    let noisy = squared <= NOISY * lengths;
+    Some((normal, if noisy { along(a, b, b_in_a, normal) } else { normal.dot(other.on - one.on) }))
+}
+
 /// The separation along a unit vector from a to b, in a's frame [m].
 pub(super) fn along(a: &ConvexHull, b: &ConvexHull, b_in_a: &Place, normal: DVec3) -> f64 {
     lowest(b.vertices(), b_in_a.unturned(normal)) + normal.dot(b_in_a.origin) + lowest(a.vertices(), -normal)
 }
 
 /// An edge in the frame of a: one end, the vector to the other, and the normals of its two faces.
-struct EdgeInA {
+pub(super) struct EdgeInA {
     on: DVec3,
     along: DVec3,
     normals: [DVec3; 2],
 }
 
 impl EdgeInA {
-    fn new(hull: &ConvexHull, edge: usize, place: Option<&Place>) -> Self {
+    pub(super) fn new(hull: &ConvexHull, edge: usize, place: Option<&Place>) -> Self {
         let edge = &hull.edges()[edge];
         let [from, to] = edge.vertices.map(|vertex| hull.vertices()[vertex as usize]);
         let normals = edge.faces.map(|face| hull.faces()[face as usize].normal);
@@ -196,6 +227,10 @@ fn facing(hull: &ConvexHull, heights: &Heights, least: f64) -> SmallVec<[u32; 32
     let mut found = SmallVec::new();
     for (i, edge) in hull.edges().iter().enumerate() {
         let [h1, h2] = edge.faces.map(|face| heights[face as usize]);
+        // Most edges look away.
+        if h1.max(h2) <= least.min(0.0) {
+            continue;
+        }
         let near = h1 > least || h2 > least || {
             let k = edge.cosine;
             let on_arc = h1 >= k * h2 && h2 >= k * h1;
