@@ -310,6 +310,22 @@ fn coincident_shapes_have_a_finite_normal() {
 }
 
 #[test]
+fn a_manifold_of_other_shapes_does_no_harm() {
+    // A body's shape may change between two steps: features of the old one may not exist any more.
+    let many: Vec<DVec3> =
+        (0..60).map(|i| turned(DVec3::ZERO, dvec3(f64::from(i), 0.3, 0.7)).transform_point(DVec3::ONE)).collect();
+    let many: SpatialShape = ConvexHull::try_new(&many).unwrap().into();
+    let small = boxed(0.5, 0.5, 0.5);
+    let pose = at(0.0, 0.0, 0.9);
+    for (a, b) in [(&many, &small), (&small, &many), (&many, &many)] {
+        let previous = collide(a, &at(0.0, 0.0, 0.0), b, &pose, &query(0.1, 0.01));
+        let query = SpatialQuery { previous: Some(&previous), ..query(0.1, 0.01) };
+        let manifold = collide(&small, &at(0.0, 0.0, 0.0), &small, &pose, &query);
+        assert!((manifold.deepest_separation().unwrap() + 0.1).abs() < 1e-12);
+    }
+}
+
+#[test]
 fn a_pose_that_is_not_finite_makes_no_contact() {
     let nowhere = Pose::<Spatial> { position: DVec3::NAN, rotation: SpatialRotation::IDENTITY };
     for a in [floor(), sphere(0.5), rod(1.0, 0.0), boxed(0.5, 0.5, 0.5)] {
@@ -336,6 +352,11 @@ proptest! {
                 let best = best_separation(&a, &pose_a, &b, &pose);
                 // Twice a tenth: edges yield to the better face by a tenth, and b's face to a's.
                 prop_assert!(deepest >= best - 2.001e-3 && deepest <= best + 2.001e-3, "step {i}: {best} {manifold:#?}");
+                // Along the same axis the same points are found without memory; of more than four, others may be chosen.
+                let fresh = collide(&a, &pose_a, &b, &pose, &spatial::query(0.0, tolerance));
+                if fresh.normal.distance(manifold.normal) < 1e-12 && fresh.points().len() < 4 {
+                    assert_same(&listed(&manifold), &listed(&fresh), 1e-11);
+                }
             }
             previous = manifold;
             pose = Pose { position: pose.position + step, rotation: pose.rotation.turned(turn) };

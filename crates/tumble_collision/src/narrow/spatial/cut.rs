@@ -12,7 +12,8 @@
 
 use glam::DVec3;
 use smallvec::SmallVec;
-use tumble_shape::{ConvexHull, spatial::Face};
+use tumble_shape::ConvexHull;
+use tumble_shape::spatial::{Face, Side};
 
 use super::place::Place;
 
@@ -135,6 +136,55 @@ pub(super) fn polygon(reference: &ConvexHull, face: &Face, incident: &ConvexHull
         .collect()
 }
 
+/// The same corners of a cut as before, in the present poses; `None` if one of them is no corner of the cut any more.
+///
+/// A corner of the cut can only appear where another one stops to be one, so that a cut whose corners all stay has no new ones.
+pub(super) fn again(
+    reference: &ConvexHull,
+    face: &Face,
+    incident: &ConvexHull,
+    facing: &Face,
+    place: &Place,
+    sources: &[Source],
+) -> Option<Cut> {
+    let sides = reference.sides(face);
+    let snap = SNAP * reference.inner_radius();
+    let beyond = |side: &Side, place: DVec3| side.outward.dot(place) - side.offset;
+    let vertex = |i: u32| incident.vertices().get(i as usize).map(|&vertex| place.point(vertex));
+    let mut cut = Cut::new();
+    for &source in sources {
+        let place = match source {
+            Source::Incident(i) => {
+                let place = vertex(i)?;
+                sides.iter().all(|side| beyond(side, place) <= snap).then_some(place)?
+            }
+            Source::Crossing { incident: edge, reference: side } => {
+                let [from, to] = incident.edges().get(edge as usize)?.vertices.map(vertex);
+                let (from, to) = (from?, to?);
+                let crossed = sides.iter().find(|other| other.edge == side)?;
+                let (start, end) = (beyond(crossed, from), beyond(crossed, to));
+                if start * end >= 0.0 {
+                    return None;
+                }
+                let place = from + (to - from) * (start / (start - end));
+                let inside = |other: &Side| other.edge == side || beyond(other, place) <= snap;
+                sides.iter().all(inside).then_some(place)?
+            }
+            Source::Reference(i) => {
+                // Up from the corner to the plane of the incident face.
+                let corner = *reference.vertices().get(i as usize)?;
+                let own = place.unturned(corner - place.origin);
+                let up = place.unturned(face.normal);
+                let own = own + up * ((facing.offset - facing.normal.dot(own)) / facing.normal.dot(up));
+                let inside = |side: &Side| beyond(side, own) <= snap;
+                incident.sides(facing).iter().all(inside).then_some(place.point(own))?
+            }
+        };
+        cut.push(CutPoint { place, height: face.normal.dot(place) - face.offset, source });
+    }
+    Some(cut)
+}
+
 /// Cuts a segment, given in the frame of the reference hull, to the prism above a face; its ends are vertices 0 and 1 of edge 0.
 pub(super) fn segment(reference: &ConvexHull, face: &Face, ends: [DVec3; 2]) -> Cut {
     let along = ends[1] - ends[0];
@@ -170,7 +220,7 @@ pub(super) fn segment(reference: &ConvexHull, face: &Face, ends: [DVec3; 2]) -> 
 
 /// Cuts a single point to the prism above a face: it is vertex 0.
 pub(super) fn point(reference: &ConvexHull, face: &Face, place: DVec3) -> Cut {
-    let inside = |side: &tumble_shape::spatial::Side| side.outward.dot(place) - side.offset <= 0.0;
+    let inside = |side: &Side| side.outward.dot(place) - side.offset <= 0.0;
     let point = CutPoint { place, height: face.normal.dot(place) - face.offset, source: Source::Incident(0) };
     if reference.sides(face).iter().all(inside) { Cut::from_slice(&[point]) } else { Cut::new() }
 }

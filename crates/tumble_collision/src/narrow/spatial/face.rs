@@ -14,17 +14,20 @@ pub(super) fn lowest(cut: &Cut) -> f64 {
     cut.iter().map(|point| point.height).fold(f64::INFINITY, f64::min)
 }
 
-/// The manifold of a cut above a face of one of the shapes; `round` is the radius of the other one [m].
-pub(super) fn manifold(pair: &Pair, owner: Owner, face: &Face, mut cut: Cut, round: f64) -> SpatialManifold {
-    let margin = pair.query.margin;
-    cut.retain(|point| point.height - round <= margin);
-    reduce::to_four(&mut cut, face.normal, pair.preference());
+/// Leaves those points of a cut that are within the margin, and at most four; `round` is the radius of the other shape [m].
+pub(super) fn choose(pair: &Pair, face: &Face, cut: &mut Cut, round: f64) {
+    cut.retain(|point| point.height - round <= pair.query.margin);
+    reduce::to_four(cut, face.normal, pair.preference());
+}
+
+/// The manifold of chosen points above a face of one of the shapes; `round` is the radius of the other one [m].
+pub(super) fn manifold(pair: &Pair, owner: Owner, face: &Face, cut: &Cut, round: f64) -> SpatialManifold {
     let (frame, normal) = match owner {
         Owner::A => (&pair.a_in_world, face.normal),
         Owner::B => (&pair.b_in_world, -face.normal),
     };
-    let mut draft = Draft::new(frame, normal, margin);
-    for point in &cut {
+    let mut draft = Draft::new(frame, normal, pair.query.margin);
+    for point in cut {
         let (feature, kind) = match point.source {
             Source::Incident(vertex) => (vertex_id(owner.other(), vertex), ContactKind::VertexFace),
             Source::Reference(vertex) => (vertex_id(owner, vertex), ContactKind::VertexFace),
@@ -41,28 +44,28 @@ pub(super) fn manifold(pair: &Pair, owner: Owner, face: &Face, mut cut: Cut, rou
     draft.finish()
 }
 
-/// The face of a hull that faces a direction (in its own frame) most squarely.
-pub(super) fn facing(hull: &ConvexHull, direction: DVec3) -> &Face {
-    let mut best = (f64::INFINITY, &hull.faces()[0]);
-    for face in hull.faces() {
+/// The number of the face of a hull that faces a direction (in its own frame) most squarely.
+pub(super) fn facing(hull: &ConvexHull, direction: DVec3) -> usize {
+    let mut best = (f64::INFINITY, 0);
+    for (i, face) in hull.faces().iter().enumerate() {
         let slope = face.normal.dot(direction);
         if slope < best.0 {
-            best = (slope, face);
+            best = (slope, i);
         }
     }
     best.1
 }
 
-/// Of the faces around the vertex that is lowest along a direction (in the hull's own frame), the one that faces it most squarely.
-pub(super) fn facing_at_lowest(hull: &ConvexHull, direction: DVec3) -> (&Face, u32) {
+/// The vertex that is lowest along a direction (in the hull's own frame), and of the faces around it the one that faces most squarely.
+pub(super) fn facing_at_lowest(hull: &ConvexHull, direction: DVec3) -> (usize, u32) {
     let height = |vertex: u32| direction.dot(hull.vertices()[vertex as usize]);
     let vertices = 0..hull.vertices().len() as u32;
     let lowest = vertices.fold(0, |lowest, vertex| if height(vertex) < height(lowest) { vertex } else { lowest });
-    let mut best = (f64::INFINITY, &hull.faces()[0]);
-    for face in hull.faces() {
+    let mut best = (f64::INFINITY, 0);
+    for (i, face) in hull.faces().iter().enumerate() {
         let slope = face.normal.dot(direction);
         if slope < best.0 && hull.sides(face).iter().any(|side| side.vertex == lowest) {
-            best = (slope, face);
+            best = (slope, i);
         }
     }
     (best.1, lowest)

@@ -41,5 +41,8 @@ pub(super) fn collide(pair: &Pair, plane: &HalfSpace, solid: &Solid) -> SpatialM
 
 fn lowest_face(hull: &ConvexHull, normal: DVec3, at: impl Fn(DVec3, u32) -> CutPoint) -> Cut {
     let (facing, _) = face::facing_at_lowest(hull, normal);
-    hull.sides(facing).iter().map(|side| at(hull.vertices()[side.vertex as usize], side.vertex)).collect()
+    hull.sides(&hull.faces()[facing])
+        .iter()
+        .map(|side| at(hull.vertices()[side.vertex as usize], side.vertex))
+        .collect()
 }

@@ -5,9 +5,10 @@ use tumble_shape::{ConvexHull, Cuboid};
 
 use super::Pair;
 use super::axis::{Axis, AxisOf, Limits, Search};
+use super::cut::{self, Cut};
 use super::draft::{Draft, Feature, Owner, feature_id};
 use super::memory::AxisMemory;
-use super::{boxes, closest, cut, face, search, segment};
+use super::{boxes, closest, face, search, segment};
 use crate::manifold::{ContactKind, Memory, SpatialManifold};
 
 /// Contact points of two polyhedra, with the boxes they are, if both are.
@@ -32,7 +33,7 @@ pub(super) fn collide(
         if axis.separation > limits.margin {
             return pair.apart(axis.normal);
         }
-        return contact(pair, a, b, &axis).remembering(memory);
+        return contact(pair, a, b, &axis, memory);
     }
     let search = match cuboids {
         Some((a, b)) => boxes::search(a, b, &pair.b_in_a, &limits),
@@ -45,13 +46,13 @@ pub(super) fn collide(
             if found.flush.across(&axis) {
                 return pair.apart(axis.normal);
             }
-            contact(pair, a, b, &axis).remembering(AxisMemory::new(pair, &found, &axis))
+            contact(pair, a, b, &axis, AxisMemory::new(pair, &found, &axis))
         }
     }
 }
 
 /// What touches along an axis.
-fn contact(pair: &Pair, a: &ConvexHull, b: &ConvexHull, best: &Axis) -> SpatialManifold {
+fn contact(pair: &Pair, a: &ConvexHull, b: &ConvexHull, best: &Axis, memory: AxisMemory) -> SpatialManifold {
     let tolerance = pair.preference() + pair.rounding();
     let closest = || closest::manifold(pair, a, b.vertices(), Some(b), 0.0, best.normal);
     if let AxisOf::Edges(i, j) = best.of {
@@ -66,13 +67,13 @@ fn contact(pair: &Pair, a: &ConvexHull, b: &ConvexHull, best: &Axis) -> SpatialM
         let mut draft = Draft::new(&pair.a_in_world, best.normal, pair.query.margin);
         let feature = feature_id(Feature::Edge(i as u32), Feature::Edge(j as u32));
         draft.push((on_a + on_b) * 0.5, best.separation, feature, ContactKind::EdgeEdge);
-        return draft.finish();
+        return draft.finish().remembering(memory);
     }
-    on_face(pair, a, b, best, tolerance).or_else(closest).unwrap_or_else(|| single(pair, a, b, best))
+    on_face(pair, a, b, best, memory).or_else(closest).unwrap_or_else(|| single(pair, a, b, best))
 }
 
 /// What lies on the face of an axis; `None` if the shapes are apart and come closer elsewhere.
-fn on_face(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axis: &Axis, tolerance: f64) -> Option<SpatialManifold> {
+fn on_face(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axis: &Axis, memory: AxisMemory) -> Option<SpatialManifold> {
     let (owner, number, reference, incident) = match axis.of {
         AxisOf::FaceB(face) => (Owner::B, face, b, a),
         AxisOf::FaceA(face) | AxisOf::Edges(face, _) => (Owner::A, face, a, b),
@@ -84,20 +85,31 @@ fn on_face(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axis: &Axis, tolerance: 
         a_in_b = pair.b_in_a.inverse();
         &a_in_b
     };
-    let reference_face = &reference.faces()[number];
-    let down = place.unturned(reference_face.normal);
-    let deep_enough = |cut: &cut::Cut| face::lowest(cut) <= axis.separation + tolerance;
-    let facing = face::facing(incident, down);
-    let mut cut = cut::polygon(reference, reference_face, incident, facing, place);
+    let above = &reference.faces()[number];
+    let deep_enough = |cut: &Cut| face::lowest(cut) <= axis.separation + pair.preference() + pair.rounding();
+    if let Some((facing, sources)) = memory.cut()
+        && let Some(facing) = incident.faces().get(facing)
+        && let Some(cut) = cut::again(reference, above, incident, facing, place, sources)
+        && deep_enough(&cut)
+    {
+        return Some(face::manifold(pair, owner, above, &cut, 0.0).remembering(memory));
+    }
+    let down = place.unturned(above.normal);
+    let cut_by = |facing: usize| cut::polygon(reference, above, incident, &incident.faces()[facing], place);
+    let mut facing = face::facing(incident, down);
+    let mut cut = cut_by(facing);
     if !deep_enough(&cut) {
         // The face that faces most squarely does not have the nearest vertex; one around that vertex has.
-        let (facing, _) = face::facing_at_lowest(incident, down);
-        cut = cut::polygon(reference, reference_face, incident, facing, place);
+        facing = face::facing_at_lowest(incident, down).0;
+        cut = cut_by(facing);
         if axis.separation > 0.0 && !deep_enough(&cut) || cut.is_empty() {
             return None;
         }
     }
-    Some(face::manifold(pair, owner, reference_face, cut, 0.0))
+    let all = cut.len().min(4);
+    face::choose(pair, above, &mut cut, 0.0);
+    let memory = if cut.len() == all { memory.with_cut(facing, &cut) } else { memory.without_cut() };
+    Some(face::manifold(pair, owner, above, &cut, 0.0).remembering(memory))
 }
 
 /// Overlapping, yet nothing faces the reference face: its deepest vertex alone.

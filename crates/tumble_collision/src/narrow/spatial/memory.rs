@@ -9,12 +9,16 @@
 //!
 //! is still as good as the best, to the preference by which another one would have to be better: no search is needed. δ is measured
 //! from the pose of the last search, so that nothing adds up. With a flush tolerance of zero there is no preference, and no memory.
+//!
+//! The points of a cut face are found again one by one, and only cut anew when one of them has stopped to be a corner of the cut. Of a
+//! cut with more than four corners the four that were chosen stay chosen in the meantime.
 
 use glam::DVec3;
 use tumble_shape::ConvexHull;
 
 use super::Pair;
 use super::axis::{Axis, AxisOf, Found, Limits};
+use super::cut::{Cut, Source};
 use super::place::Place;
 use super::search::{self, EdgeInA};
 use crate::manifold::Memory;
@@ -34,6 +38,10 @@ struct Known {
     clear: f64,
     /// Where b was.
     b_in_a: Place,
+    /// Of a face axis: the face of the other hull that was cut, and what made the points; no points if not all are known.
+    facing: usize,
+    sources: [Source; 4],
+    points: usize,
 }
 
 impl Memory for AxisMemory {
@@ -46,8 +54,42 @@ impl AxisMemory {
         if pair.query.flush_tolerance == 0.0 {
             return Self::NONE;
         }
-        let known = Known { of: choice.of, best: found.best(), clear: found.flush.clear, b_in_a: pair.b_in_a };
+        let known = Known {
+            of: choice.of,
+            best: found.best(),
+            clear: found.flush.clear,
+            b_in_a: pair.b_in_a,
+            facing: 0,
+            sources: [Source::Incident(0); 4],
+            points: 0,
+        };
         Self { known: Some(known) }
+    }
+
+    /// The same with the points of a cut to remember.
+    pub(super) fn with_cut(mut self, facing: usize, cut: &Cut) -> Self {
+        if let Some(known) = &mut self.known {
+            known.facing = facing;
+            known.points = cut.len();
+            for (source, point) in known.sources.iter_mut().zip(cut) {
+                *source = point.source;
+            }
+        }
+        self
+    }
+
+    /// The same with no points to remember.
+    pub(super) fn without_cut(mut self) -> Self {
+        if let Some(known) = &mut self.known {
+            known.points = 0;
+        }
+        self
+    }
+
+    /// The face that was cut, and what made the points, if they are known.
+    pub(super) fn cut(&self) -> Option<(usize, &[Source])> {
+        let known = self.known.as_ref().filter(|known| known.points > 0)?;
+        Some((known.facing, &known.sources[..known.points]))
     }
 
     /// The remembered axis as it is now, if it is still as good as the best.

@@ -28,9 +28,11 @@ pub(super) fn collide(pair: &Pair, hull: &ConvexHull, core: &[DVec3], radius: f6
     match best.of {
         AxisOf::FaceA(number) | AxisOf::FaceB(number) => {
             let above = &hull.faces()[number];
-            let cut = if core.len() == 2 { cut::segment(hull, above, ends) } else { cut::point(hull, above, ends[0]) };
+            let mut cut =
+                if core.len() == 2 { cut::segment(hull, above, ends) } else { cut::point(hull, above, ends[0]) };
             if !cut.is_empty() && fits(face::lowest(&cut)) {
-                return face::manifold(pair, Owner::A, above, cut, radius);
+                face::choose(pair, above, &mut cut, radius);
+                return face::manifold(pair, Owner::A, above, &cut, radius);
             }
         }
         AxisOf::Edges(edge, _) => {
@@ -63,7 +65,7 @@ fn deepest(pair: &Pair, hull: &ConvexHull, ends: [DVec3; 2], radius: f64, axis: 
     let height = above.normal.dot(ends[lower]) - above.offset;
     let source = cut::Source::Incident(lower as u32);
     let cut = Cut::from_slice(&[cut::CutPoint { place: ends[lower], height, source }]);
-    face::manifold(pair, Owner::A, above, cut, radius)
+    face::manifold(pair, Owner::A, above, &cut, radius)
 }
 
 /// The separating axis of a hull and a segment (or a point, both ends alike), all in the hull's frame.
