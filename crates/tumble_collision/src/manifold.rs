@@ -179,11 +179,13 @@ impl<V: Vector, const N: usize, M: Memory> Manifold<V, N, M> {
     pub const EMPTY: Self = Self { normal: V::ZERO, points: [Self::UNUSED; N], count: 0, memory: M::NONE };
 
     /// A manifold to which points are added along this normal.
+    #[inline]
     pub(crate) fn along(normal: V) -> Self {
         Self { normal, ..Self::EMPTY }
     }
 
     /// Adds a point in the order of feature ids; points beyond the capacity are dropped.
+    #[inline]
     pub(crate) fn insert(&mut self, point: ContactPoint<V>) {
         let count = self.count as usize;
         if count == N {
@@ -196,13 +198,15 @@ impl<V: Vector, const N: usize, M: Memory> Manifold<V, N, M> {
     }
 
     /// The same manifold with something to remember.
+    #[inline]
     pub(crate) fn remembering(self, memory: M) -> Self {
         Self { memory, ..self }
     }
 
     /// What it remembers.
-    pub(crate) fn memory(&self) -> M {
-        self.memory
+    #[inline]
+    pub(crate) fn memory(&self) -> &M {
+        &self.memory
     }
 
     /// The points, in the order of their feature ids.

@@ -14,7 +14,7 @@ use tumble_collision::{
     ContactKind, FeatureId, SpatialManifold, SpatialOrientedBox, SpatialQuery, collide_spatial as collide,
 };
 use tumble_math::{Pose, Rotation, Spatial, SpatialRotation};
-use tumble_shape::{ConvexHull, Cuboid, HalfSpace, SpatialShape};
+use tumble_shape::{Cone, ConvexHull, Cuboid, Cylinder, HalfSpace, SpatialShape};
 
 proptest! {
     #![proptest_config(config(2000))]
@@ -306,6 +306,53 @@ fn coincident_shapes_have_a_finite_normal() {
     for shape in [sphere(0.5), rod(1.0, 0.0), rod(1.0, 0.1), boxed(0.5, 0.5, 0.5)] {
         let manifold = collide(&shape, &pose, &shape, &pose, &query(0.1, 0.0));
         assert!((manifold.normal.length() - 1.0).abs() < 1e-14 && !manifold.is_empty(), "{shape:?} {manifold:#?}");
+    }
+}
+
+#[test]
+fn cylinders_and_cones_stand_and_lie_on_the_floor() {
+    let cylinder: SpatialShape = Cylinder::try_new(dvec3(0.0, 0.0, -0.5), dvec3(0.0, 0.0, 0.5), 0.3).unwrap().into();
+    let cone: SpatialShape = Cone::try_new(DVec3::ZERO, dvec3(0.0, 0.0, 0.4), 0.3).unwrap().into();
+    let on_floor = |shape: &SpatialShape, pose: &Pose<Spatial>| {
+        collide(&floor(), &at(0.0, 0.0, 0.0), shape, pose, &query(0.05, 0.01))
+    };
+    // Standing, with rounding noise: four places on the rim that stay where they are.
+    for i in 0..20 {
+        let noise = 1e-12 * f64::from(i % 7 - 3);
+        let standing = on_floor(&cylinder, &turned(dvec3(1.0, 2.0, 0.5), dvec3(noise, -noise, 0.0)));
+        let ids: Vec<FeatureId> = standing.points().iter().map(|point| point.feature).collect();
+        assert_eq!(ids, [0, 1, 2, 3].map(FeatureId::vertex_of_b));
+        assert!((standing.points()[0].point - standing.points()[2].point).length() > 0.6 - 1e-9);
+    }
+    // Lying: a line, from rim to rim.
+    let lying = on_floor(&cylinder, &turned(dvec3(0.0, 0.0, 0.29), DVec3::Y * std::f64::consts::FRAC_PI_2));
+    assert_eq!(lying.points().len(), 2);
+    assert!(lying.points().iter().all(|point| (point.separation + 0.01).abs() < 1e-14));
+    // A cone of base radius 3 and height 4 rolls on its side of length 5: its tip and one place of the rim are down.
+    let tilt = std::f64::consts::PI - tumble_math::trig::atan2(4.0, 3.0);
+    let rolling = on_floor(&cone, &turned(dvec3(0.0, 0.0, 0.24), DVec3::X * tilt));
+    assert_eq!(rolling.points().len(), 2, "{rolling:#?}");
+    assert!(rolling.points().iter().all(|point| point.separation.abs() < 1e-14));
+    assert!((rolling.points()[0].point.distance(rolling.points()[1].point) - 0.5).abs() < 1e-14);
+}
+
+proptest! {
+    #![proptest_config(config(1000))]
+
+    #[test]
+    fn the_lowest_place_of_a_cylinder_or_cone_is_its_separation_from_the_floor(
+        ends in (vector(1.0), vector(1.0)), radius in 0.1..1.0_f64, pose in pose(1.0),
+    ) {
+        let shapes: [SpatialShape; 2] = [
+            Cylinder::try_new(ends.0, ends.1, radius).unwrap().into(),
+            Cone::try_new(ends.0, ends.1, radius).unwrap().into(),
+        ];
+        for shape in shapes {
+            let manifold = collide(&floor(), &at(0.0, 0.0, 0.0), &shape, &pose, &query(10.0, 0.0));
+            let lowest = shape.bounds(&pose).unwrap().min.z;
+            // A few roundings of numbers below 4, squared under a root.
+            prop_assert!((manifold.deepest_separation().unwrap() - lowest).abs() < 1e-13);
+        }
     }
 }
 

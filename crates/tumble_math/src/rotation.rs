@@ -126,6 +126,23 @@ impl SpatialRotation {
         Self::IDENTITY.turned(angle)
     }
 
+    /// The vector along the axis of this rotation whose length is its angle, at most π [rad].
+    pub fn rotation_vector(&self) -> DVec3 {
+        // q and −q are the same rotation; the one with w ≥ 0 turns by at most half a turn.
+        let q = if self.quaternion.w < 0.0 { -self.quaternion } else { self.quaternion };
+        let v = q.xyz();
+        let sin = Linear::length(v);
+        // 2 atan(s/w)/s, by its series where the quotient would lose digits: the first term left out is below s⁴.
+        let ratio = if sin < 1e-4 { 2.0 + sin * sin / 3.0 } else { 2.0 * trig::atan2(sin, q.w) / sin };
+        v * ratio
+    }
+
+    /// The rotation that, after `self`, makes `other`: other = turn · self, in world axes.
+    pub fn turn_to(&self, other: &Self) -> Self {
+        let product = other.quaternion * self.quaternion.conjugate();
+        Self { quaternion: product * (1.0 / product.length()) }
+    }
+
     /// The unit quaternion, body to world.
     #[inline]
     pub fn quaternion(&self) -> DQuat {

@@ -54,6 +54,18 @@ proptest! {
     }
 
     #[test]
+    fn a_rotation_vector_is_found_again(axis in vector3(), angle in 0.0..3.1, tiny in 0.0..1e-3, start in vector3()) {
+        for angle in [angle, tiny] {
+            let vector = axis.normalize() * angle;
+            let rotation = SpatialRotation::from_rotation_vector(vector);
+            // Near a half turn the sine of the half angle is flat.
+            prop_assert!((rotation.rotation_vector() - vector).length() < 1e-13);
+            let start = SpatialRotation::from_rotation_vector(start);
+            prop_assert!((start.turn_to(&start.turned(vector)).rotation_vector() - vector).length() < 1e-13);
+        }
+    }
+
+    #[test]
     fn turning_about_z_is_the_plane(angle in -3.0..3.0, more in -3.0..3.0, v in vector2()) {
         let planar = PlanarRotation::from_angle(angle).turned(more).rotate(v);
         let spatial = SpatialRotation::from_rotation_vector(DVec3::Z * angle).turned(DVec3::Z * more);

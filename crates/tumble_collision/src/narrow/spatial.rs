@@ -1,7 +1,7 @@
 //! Contact points of two shapes of space.
 //!
-//! Every shape but the half-space is a core (point, segment or polyhedron) grown by a radius. Cylinders and cones have no contact
-//! points yet: a pair with one of them makes an empty manifold.
+//! Every shape but the half-space is a core (point, segment or polyhedron) grown by a radius. Cylinders and cones
+//! touch half-spaces only, as yet: a pair of one of them and anything else makes an empty manifold.
 //!
 //! # The two generic cases (L2)
 //!
@@ -92,8 +92,8 @@ const FLUSH_SLACK: f64 = 1.0 + 1e-6;
 
 /// Contact points of shapes a and b in the given poses, the normal running from a to b.
 ///
-/// Without points when the shapes are further apart than the margin, for two half-spaces, for cylinders and cones, and for a pose
-/// that is not finite.
+/// Without points when the shapes are further apart than the margin, for two half-spaces, for cylinders and cones with
+/// anything but a half-space, and for a pose that is not finite.
 pub fn collide(
     a: &SpatialShape,
     pose_a: &Pose<Spatial>,
@@ -151,7 +151,7 @@ fn ordered(
         (Solid::Point(a, radius_a), Solid::Point(b, radius_b)) => {
             segments::collide(&pair, &[a], &[b], [radius_a, radius_b])
         }
-        // Ranks rule the rest out.
+        // Cylinders and cones; ranks rule the rest out.
         _ => SpatialManifold::EMPTY,
     }
 }

@@ -34,6 +34,13 @@ pub(super) fn search(a: &Cuboid, b: &Cuboid, b_in_a: &Place, limits: &Limits) ->
     let along_a = t.abs() - h_a - (abs[0] * h_b.x + abs[1] * h_b.y + abs[2] * h_b.z);
     let along_b = t_b.abs() - h_b - DVec3::new(abs[0].dot(h_a), abs[1].dot(h_a), abs[2].dot(h_a));
 
+    if let Some(i) = (0..3).find(|&i| along_a[i] > limits.margin) {
+        return Search::Apart(frame.col(i) * 1.0_f64.copysign(t[i]));
+    }
+    if let Some(j) = (0..3).find(|&j| along_b[j] > limits.margin) {
+        return Search::Apart(b_axes.col(j) * 1.0_f64.copysign(t_b[j]));
+    }
+
     let mut flush = FlushFaces::NONE;
     let mut face_a = Axis { of: AxisOf::FaceA(0), normal: DVec3::ZERO, separation: f64::NEG_INFINITY };
     let mut face_b = face_a;
@@ -54,11 +61,6 @@ pub(super) fn search(a: &Cuboid, b: &Cuboid, b_in_a: &Place, limits: &Limits) ->
         flush.note(normal, along_b[j], limits);
         if along_b[j] > face_b.separation {
             face_b = Axis { of: AxisOf::FaceB(2 * j + usize::from(upper)), normal, separation: along_b[j] };
-        }
-    }
-    for face in [&face_a, &face_b] {
-        if face.separation > limits.margin {
-            return Search::Apart(face.normal);
         }
     }
 

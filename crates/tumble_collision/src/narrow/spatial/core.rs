@@ -47,10 +47,12 @@ pub(super) enum Solid<'a> {
     Segment(&'a [DVec3; 2], f64),
     /// A point with a radius.
     Point(DVec3, f64),
+    /// A cylinder, or a cone from its base to its tip: both ends of the axis, and the radii there.
+    Rims([DVec3; 2], [f64; 2]),
 }
 
 impl<'a> Solid<'a> {
-    /// `None` for half-spaces, and for shapes without a core.
+    /// `None` for half-spaces.
     pub(super) fn of(shape: &'a SpatialShape) -> Option<Self> {
         match shape {
             SpatialShape::Sphere(sphere) => Some(Self::Point(sphere.centre(), sphere.radius())),
@@ -58,7 +60,9 @@ impl<'a> Solid<'a> {
             SpatialShape::Capsule(capsule) => Some(Self::Segment(capsule.ends(), capsule.radius())),
             SpatialShape::Cuboid(cuboid) => Some(Self::Hull(cuboid.hull(), Some(cuboid))),
             SpatialShape::ConvexHull(hull) => Some(Self::Hull(hull, None)),
-            SpatialShape::Cylinder(_) | SpatialShape::Cone(_) | SpatialShape::HalfSpace(_) => None,
+            SpatialShape::Cylinder(cylinder) => Some(Self::Rims(*cylinder.ends(), [cylinder.radius(); 2])),
+            SpatialShape::Cone(cone) => Some(Self::Rims([cone.base(), cone.tip()], [cone.radius(), 0.0])),
+            SpatialShape::HalfSpace(_) => None,
         }
     }
 
@@ -68,6 +72,7 @@ impl<'a> Solid<'a> {
             Self::Hull(hull, _) => hull.centre().length() + hull.outer_radius(),
             Self::Segment(ends, radius) => ends[0].length().max(ends[1].length()) + radius,
             Self::Point(centre, radius) => centre.length() + radius,
+            Self::Rims(ends, radii) => ends[0].length().max(ends[1].length()) + radii[0],
         }
     }
 }

@@ -70,6 +70,7 @@ pub(super) struct Draft<'a> {
 
 impl<'a> Draft<'a> {
     /// Begins a manifold along a normal from a to b, both in the same frame, for points up to a margin [m].
+    #[inline]
     pub(super) fn new(frame: &'a Place, normal: DVec3, margin: f64) -> Self {
         Self { frame, normal, margin, manifold: SpatialManifold::along(frame.vector(normal)) }
     }
@@ -82,6 +83,7 @@ impl<'a> Draft<'a> {
     }
 
     /// Adds a point midway between the surfaces [m]; left out beyond the margin.
+    #[inline]
     pub(super) fn push(&mut self, middle: DVec3, separation: f64, feature: FeatureId, kind: ContactKind) {
         if separation <= self.margin {
             self.manifold.insert(ContactPoint { point: self.frame.point(middle), separation, feature, kind });
@@ -89,6 +91,7 @@ impl<'a> Draft<'a> {
     }
 
     /// The manifold; without points it keeps the normal as a direction along which the shapes are apart.
+    #[inline]
     pub(super) fn finish(self) -> SpatialManifold {
         self.manifold
     }

@@ -9,7 +9,7 @@ use super::cut::{self, Cut};
 use super::draft::{Draft, Feature, Owner, feature_id};
 use super::memory::AxisMemory;
 use super::{boxes, closest, face, search, segment};
-use crate::manifold::{ContactKind, Memory, SpatialManifold};
+use crate::manifold::{ContactKind, SpatialManifold};
 
 /// Contact points of two polyhedra, with the boxes they are, if both are.
 pub(super) fn collide(
@@ -28,8 +28,9 @@ pub(super) fn collide(
             return pair.apart(normal);
         }
     }
-    let memory = pair.query.previous.map_or(AxisMemory::NONE, SpatialManifold::memory);
-    if let Some(axis) = memory.still_best(pair, a, b, &limits) {
+    if let Some(memory) = pair.query.previous.map(SpatialManifold::memory)
+        && let Some(axis) = memory.still_best(pair, a, b, &limits)
+    {
         if axis.separation > limits.margin {
             return pair.apart(axis.normal);
         }
@@ -46,13 +47,13 @@ pub(super) fn collide(
             if found.flush.across(&axis) {
                 return pair.apart(axis.normal);
             }
-            contact(pair, a, b, &axis, AxisMemory::new(pair, &found, &axis))
+            contact(pair, a, b, &axis, &AxisMemory::new(pair, &found, &axis))
         }
     }
 }
 
 /// What touches along an axis.
-fn contact(pair: &Pair, a: &ConvexHull, b: &ConvexHull, best: &Axis, memory: AxisMemory) -> SpatialManifold {
+fn contact(pair: &Pair, a: &ConvexHull, b: &ConvexHull, best: &Axis, memory: &AxisMemory) -> SpatialManifold {
     let tolerance = pair.preference() + pair.rounding();
     let closest = || closest::manifold(pair, a, b.vertices(), Some(b), 0.0, best.normal);
     if let AxisOf::Edges(i, j) = best.of {
@@ -67,13 +68,13 @@ fn contact(pair: &Pair, a: &ConvexHull, b: &ConvexHull, best: &Axis, memory: Axi
         let mut draft = Draft::new(&pair.a_in_world, best.normal, pair.query.margin);
         let feature = feature_id(Feature::Edge(i as u32), Feature::Edge(j as u32));
         draft.push((on_a + on_b) * 0.5, best.separation, feature, ContactKind::EdgeEdge);
-        return draft.finish().remembering(memory);
+        return draft.finish().remembering(*memory);
     }
     on_face(pair, a, b, best, memory).or_else(closest).unwrap_or_else(|| single(pair, a, b, best))
 }
 
 /// What lies on the face of an axis; `None` if the shapes are apart and come closer elsewhere.
-fn on_face(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axis: &Axis, memory: AxisMemory) -> Option<SpatialManifold> {
+fn on_face(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axis: &Axis, memory: &AxisMemory) -> Option<SpatialManifold> {
     let (owner, number, reference, incident) = match axis.of {
         AxisOf::FaceB(face) => (Owner::B, face, b, a),
         AxisOf::FaceA(face) | AxisOf::Edges(face, _) => (Owner::A, face, a, b),
@@ -92,7 +93,7 @@ fn on_face(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axis: &Axis, memory: Axi
         && let Some(cut) = cut::again(reference, above, incident, facing, place, sources)
         && deep_enough(&cut)
     {
-        return Some(face::manifold(pair, owner, above, &cut, 0.0).remembering(memory));
+        return Some(face::manifold(pair, owner, above, &cut, 0.0).remembering(*memory));
     }
     let down = place.unturned(above.normal);
     let cut_by = |facing: usize| cut::polygon(reference, above, incident, &incident.faces()[facing], place);

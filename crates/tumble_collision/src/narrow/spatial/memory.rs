@@ -67,23 +67,25 @@ impl AxisMemory {
     }
 
     /// The same with the points of a cut to remember.
-    pub(super) fn with_cut(mut self, facing: usize, cut: &Cut) -> Self {
-        if let Some(known) = &mut self.known {
+    pub(super) fn with_cut(&self, facing: usize, cut: &Cut) -> Self {
+        let mut memory = *self;
+        if let Some(known) = &mut memory.known {
             known.facing = facing;
             known.points = cut.len();
             for (source, point) in known.sources.iter_mut().zip(cut) {
                 *source = point.source;
             }
         }
-        self
+        memory
     }
 
     /// The same with no points to remember.
-    pub(super) fn without_cut(mut self) -> Self {
-        if let Some(known) = &mut self.known {
+    pub(super) fn without_cut(&self) -> Self {
+        let mut memory = *self;
+        if let Some(known) = &mut memory.known {
             known.points = 0;
         }
-        self
+        memory
     }
 
     /// The face that was cut, and what made the points, if they are known.

@@ -71,6 +71,9 @@ fn best_face(
     let first = highest(above);
     let mut best = (first, face_separation(hull, first, other, other_in_own));
     flush.note(in_a(hull.faces()[first].normal), best.1, limits);
+    if best.1 > limits.margin {
+        return best;
+    }
     for (face, height) in above.iter().enumerate() {
         let bound = height - inner;
         let least = best.1.max(least);
@@ -227,12 +230,12 @@ fn facing(hull: &ConvexHull, heights: &Heights, least: f64) -> SmallVec<[u32; 32
     let mut found = SmallVec::new();
     for (i, edge) in hull.edges().iter().enumerate() {
         let [h1, h2] = edge.faces.map(|face| heights[face as usize]);
-        // Most edges look away.
-        if h1.max(h2) <= least.min(0.0) {
+        // Most edges look away. A foot on the arc is at most half the arc from the nearer normal: distance ≤ height / √((1 + k)/2).
+        let (k, higher) = (edge.cosine, h1.max(h2));
+        if least > 0.0 && (higher <= 0.0 || 2.0 * higher * higher < least * least * (1.0 + k)) {
             continue;
         }
-        let near = h1 > least || h2 > least || {
-            let k = edge.cosine;
+        let near = higher > least || {
             let on_arc = h1 >= k * h2 && h2 >= k * h1;
             on_arc && (least < 0.0 || h1 * h1 + h2 * h2 - 2.0 * k * h1 * h2 >= least * least * (1.0 - k * k))
         };
