@@ -50,6 +50,7 @@ impl Found {
 
 /// Outcome of looking for axes.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "it lives on the stack for a moment")]
 pub(super) enum Search {
     /// Along this unit vector (from a to b, in the frame of a) the two are further apart than asked.
     Apart(DVec3),
