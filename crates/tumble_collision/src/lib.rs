@@ -2,6 +2,7 @@
 //!
 //! - [`broad`]: [`BroadPhase`] keeps the set of pairs whose grown bounds overlap, at a cost that follows what moved;
 //! - [`narrow`]: [`collide`] finds the contact points of one pair as a [`Manifold`], [`collide_spatial`] those of a pair in space;
+//! - [`arrival`]: when a gap closes;
 //! - [`manifold`]: what a manifold is: points that share a normal, each with a separation, a feature id and a kind.
 //!
 //! ```
@@ -22,10 +23,12 @@
 //! # Ok::<(), tumble_shape::ShapeError>(())
 //! ```
 
+pub mod arrival;
 pub mod broad;
 pub mod manifold;
 pub mod narrow;
 
+pub use arrival::{Gap, Search, first_arrival, parabola_arrival};
 pub use broad::{BroadPhase, OrientedBox, PairChanges, SpatialOrientedBox, Volume};
 pub use manifold::{ContactKind, ContactPoint, CornerOf, FeatureId, Manifold, PlanarManifold, SpatialManifold};
 pub use narrow::planar::collide;

@@ -301,7 +301,7 @@ impl Recorder {
             let (Some(a), Some(b)) = (index(message.pair.a.0), index(message.pair.b.0)) else { continue };
             self.recording.touches.push(Touch {
                 step: clock.step,
-                time: clock.time(),
+                time: message.time,
                 a,
                 b,
                 phase: match message.phase {

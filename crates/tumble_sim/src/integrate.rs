@@ -64,8 +64,8 @@ pub fn integrate_velocities<D: Dim>(
     mut fault: ResMut<Fault>,
 ) {
     for (index, a, alpha, mut velocity, mut angular_velocity) in &mut bodies {
-        let v = velocity.0 + a.0 * clock.dt;
-        let w = angular_velocity.0 + alpha.0 * clock.dt;
+        let v = velocity.0 + a.0 * clock.part();
+        let w = angular_velocity.0 + alpha.0 * clock.part();
         fault.check(v.is_finite() && w.is_finite(), index.0, Quantity::Velocity, StepSystems::FilterVelocities);
         velocity.bypass_change_detection().0 = v;
         angular_velocity.bypass_change_detection().0 = w;
@@ -90,7 +90,7 @@ pub fn remember_velocities<D: Dim>(
         &mut PreviousVelocity<VectorOf<D>, AngularOf<D>>,
     )>,
 ) {
-    let half_step = 0.5 * clock.dt;
+    let half_step = 0.5 * clock.part_before();
     for (a, alpha, mut velocity, mut angular_velocity, mut previous) in &mut bodies {
         if let Some((a_before, alpha_before)) = previous.accelerations.replace((a.0, alpha.0)) {
             velocity.bypass_change_detection().0 += (a.0 - a_before) * half_step;
@@ -127,11 +127,11 @@ pub fn update_positions<D: Dim<Vector: InDim>>(
             v = (previous.linear + v) * 0.5;
             w = (previous.angular + w) * 0.5;
         }
-        let mut x = position.0 + v * clock.dt;
+        let mut x = position.0 + v * clock.part();
         let mut turned = angular_velocity.0;
-        let mut rotation = orientation.0.turned(w * clock.dt);
+        let mut rotation = orientation.0.turned(w * clock.part());
         if !D::Rotation::INERTIA_IS_CONSTANT && inverse.0 != D::Inertia::ZERO {
-            (rotation, _) = D::turn_freely(orientation.0, &inertia.0, &inverse.0, w, clock.dt);
+            (rotation, _) = D::turn_freely(orientation.0, &inertia.0, &inverse.0, w, clock.part());
             let momentum = inertia.0.in_world(&orientation.0).apply(angular_velocity.0);
             turned = inverse.0.in_world(&rotation).apply(momentum);
         }

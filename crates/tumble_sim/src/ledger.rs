@@ -59,6 +59,26 @@ pub struct Ledger {
     pub solver_end: Option<Ending>,
 }
 
+impl Ledger {
+    /// This and the part of the step after it.
+    fn joined(&self, next: &Self) -> Self {
+        Self {
+            normal_violation: self.normal_violation.max(next.normal_violation),
+            tangent_violation: self.tangent_violation.max(next.tangent_violation),
+            work_gravity: self.work_gravity + next.work_gravity,
+            work_springs: self.work_springs + next.work_springs,
+            work_user: self.work_user + next.work_user,
+            work_friction: self.work_friction + next.work_friction,
+            work_impacts: self.work_impacts + next.work_impacts,
+            work_joints: self.work_joints + next.work_joints,
+            work_position_correction: self.work_position_correction + next.work_position_correction,
+            integrator_defect: self.integrator_defect + next.integrator_defect,
+            error: self.error + next.error,
+            ..*next
+        }
+    }
+}
+
 /// Force and torque on a body.
 type Wrench<D> = (<D as Dim>::Vector, <D as Dim>::Angular);
 
@@ -324,7 +344,7 @@ pub(crate) fn after_forces<D: Geometry>(clock: Res<Clock>, mut books: ResMut<Boo
         let (v0, w0) = books.before[rank];
         let (v, w) = ((v0 + v.0) * 0.5, (w0 + w.0) * 0.5);
         for (work, line) in work.iter_mut().zip(&books.lines) {
-            *work += (line[rank].0.dot(v) + line[rank].1.dot(w)) * clock.dt;
+            *work += (line[rank].0.dot(v) + line[rank].1.dot(w)) * clock.part();
         }
     }
     let [gravity, springs, user, joints, contacts, friction] = work;
@@ -376,17 +396,19 @@ pub(crate) fn after_moves<D: Geometry>(
     books.potential = moved;
 }
 
-/// Closes the books.
+/// Closes the books of a part of the step.
 pub(crate) fn close<D: Geometry>(
+    clock: Res<Clock>,
     report: Res<ContactReport>,
     mut books: ResMut<Books<D>>,
     mut ledger: ResMut<Ledger>,
     bodies: StateQuery<D>,
 ) {
     let gained = kinetic::<D>(&bodies) + books.potential - books.energy;
+    let before = if clock.at_start_of_step() { Ledger::default() } else { *ledger };
     let lines = &mut books.ledger;
     let booked = lines.work_user + lines.work_friction + lines.work_impacts + lines.work_joints;
     lines.error = gained - booked - lines.work_position_correction - lines.integrator_defect;
     lines.solver_end = report.solved.map(|solved| solved.ending);
-    *ledger = *lines;
+    *ledger = before.joined(lines);
 }

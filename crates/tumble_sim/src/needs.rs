@@ -29,6 +29,7 @@ pub(crate) enum Need {
     Penalty,
     LectureFloor,
     Velocity,
+    ImpactTimes,
     Resting,
     Joints,
     JointSprings,
@@ -60,6 +61,7 @@ pub(crate) fn needs<D: Geometry>(world: &mut World) -> BTreeSet<Need> {
         (ContactModel::Impulse | ContactModel::VelocityLcp | ContactModel::RestingLcp, _) => {
             need((contacts || joints) && settings.contact == ContactModel::RestingLcp, Need::Resting);
             need(contacts || joints, Need::Velocity);
+            need(contacts && settings.time_of_impact, Need::ImpactTimes);
             need(joints, Need::Joints);
         }
         (ContactModel::Penalty, law) => {

@@ -3,6 +3,7 @@
 use bevy_ecs::prelude::*;
 
 use crate::body::BodyTable;
+use crate::contact::MOST_PARTS;
 
 /// Things noticed during a run.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
@@ -13,6 +14,7 @@ pub struct Notices {
     no_solution: Option<Counted>,
     not_unique: Option<Counted>,
     too_large: Option<Counted>,
+    too_many_impacts: Option<Counted>,
 }
 
 /// Steps in which something happened.
@@ -78,6 +80,15 @@ impl Notices {
         self.not_unique.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
     }
 
+    pub(crate) fn too_many_impacts(&mut self, step: u64) {
+        self.too_many_impacts.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
+    }
+
+    /// Steps in which impacts followed each other too closely to cut the step at each.
+    pub fn steps_with_too_many_impacts(&self) -> Option<Counted> {
+        self.too_many_impacts
+    }
+
     pub(crate) fn too_large(&mut self, step: u64) {
         self.too_large.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
     }
@@ -139,6 +150,11 @@ impl Notices {
         if let Some(Counted { steps, first_step }) = self.too_large {
             sentences.push(format!(
                 "more than 100 contacts hang together in {steps} steps, first in step {first_step}: too many for resting forces, so impulses resolved them"
+            ));
+        }
+        if let Some(Counted { steps, first_step }) = self.too_many_impacts {
+            sentences.push(format!(
+                "{steps} steps had more than {MOST_PARTS} impacts, first step {first_step}: the rest were answered at the end of the step"
             ));
         }
         if let Some(worst) = self.not_converged {

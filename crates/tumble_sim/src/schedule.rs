@@ -25,7 +25,7 @@ use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleT
 use crate::body::follow_keyframes;
 use crate::contact::{
     apply_lecture_floor, apply_penalty_forces, apply_resting_forces, filter_positions, filter_velocities,
-    find_contacts, find_pairs, resolve_impulses, sync_pairs,
+    find_contacts, find_pairs, is_taken, look_for_impacts, resolve_impulses, sync_pairs,
 };
 use crate::force::{
     apply_forces, apply_gravity, apply_linear_drag, apply_quadratic_drag, apply_scaled_gravity, apply_springs,
@@ -87,6 +87,7 @@ enum Place {
     JointSprings,
     ContactForces,
     Filter,
+    ImpactTimes,
     Curvature,
     FilterPositions,
     Move,
@@ -153,7 +154,7 @@ pub(crate) fn step_schedule<D: Geometry>() -> Schedule {
         (
             (Place::Remember, Place::Keyframes).chain(),
             (Place::BeforeForces, Place::Integrate, Place::AfterForces).chain(),
-            (Place::Filter, Place::LookAtContacts).chain(),
+            (Place::Filter, Place::LookAtContacts, Place::ImpactTimes).chain(),
         )
             .chain()
             .in_set(FilterVelocities),
@@ -231,6 +232,13 @@ pub(crate) fn add_systems<D: Geometry>(need: Need, step: &mut Schedule, begin: &
                 filter_positions::<D>.in_set(Place::FilterPositions),
                 resolve_impulses::<D>.in_set(Place::Impacts),
             ))
+        }
+        Need::ImpactTimes => {
+            use StepSystems::{DetectCollisions, ResolveImpulses, UpdatePositions};
+            step.configure_sets(
+                (UpdatePositions, DetectCollisions, ResolveImpulses).distributive_run_if(is_taken::<D>),
+            );
+            step.add_systems(look_for_impacts::<D>.in_set(Place::ImpactTimes))
         }
         Need::Resting => step.add_systems(apply_resting_forces::<D>.in_set(Place::ContactForces)),
         Need::Joints => {

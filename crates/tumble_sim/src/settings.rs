@@ -4,6 +4,10 @@ use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Linear, Planar};
 use tumble_solver::velocity_lcp::{Restitution, VelocitySettings, VelocitySolver};
 
+/// Where steps are cut at impacts, slower bounces are rest: what is left of the Zeno time 2 v/(g (1 − ε)) is then below 1e-9 s up to
+/// ε = 0.97 [length scales per second].
+const SLOWEST_BOUNCE: f64 = 1e-10;
+
 /// How positions follow velocities.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Integrator {
@@ -142,6 +146,9 @@ pub struct Settings<D: Dim = Planar> {
     pub speculative_limit: Option<f64>,
     /// How positions follow velocities.
     pub integrator: Integrator,
+    /// Whether the step is cut at every impact, so that bounces happen at their times and not at ends of steps. Bodies then move
+    /// ballistically, whatever `integrator` says. The penalty model knows no impacts, and ignores it. Default false.
+    pub time_of_impact: bool,
     /// Which law answers contacts.
     pub contact: ContactModel,
     /// Settings of the penalty model.
@@ -162,6 +169,7 @@ impl<D: Dim> Settings<D> {
             slop: None,
             speculative_limit: None,
             integrator: Integrator::default(),
+            time_of_impact: false,
             contact: ContactModel::default(),
             penalty: PenaltySettings::default(),
             impulse: ImpulseSettings::default(),
@@ -174,16 +182,30 @@ impl<D: Dim> Settings<D> {
         self.slop.unwrap_or(0.005 * self.length_scale)
     }
 
-    /// Speed that gravity adds along a normal in half a step [m/s].
+    /// Whether steps are cut at impacts.
+    pub fn cuts_at_impacts(&self) -> bool {
+        self.time_of_impact && self.contact != ContactModel::Penalty
+    }
+
+    /// How positions follow velocities, with what [`time_of_impact`](Self::time_of_impact) says.
+    pub fn moves_by(&self) -> Integrator {
+        if self.cuts_at_impacts() { Integrator::Ballistic } else { self.integrator }
+    }
+
+    /// Speed that gravity adds along a normal in half a step; 1e-10 length scales per second where steps are cut at impacts [m/s].
     ///
     /// Slower than this is rest: a rebound would not leave the surface within the step.
     pub fn rest_speed(&self, normal: D::Vector) -> f64 {
+        if self.cuts_at_impacts() {
+            return SLOWEST_BOUNCE * self.length_scale;
+        }
         0.5 * self.gravity.dot(normal).abs() * self.dt
     }
 
     /// A point that approaches faster than this is colliding, unless [`rest_speed`](Self::rest_speed) says otherwise [m/s].
     pub fn colliding_above(&self) -> f64 {
-        self.impulse.colliding_above.unwrap_or(1e-9 * self.length_scale)
+        let default = if self.cuts_at_impacts() { SLOWEST_BOUNCE } else { 1e-9 };
+        self.impulse.colliding_above.unwrap_or(default * self.length_scale)
     }
 
     /// Most sweeps over `rows` contact points [1].

@@ -15,8 +15,8 @@ use crate::body::{
     prepare_bodies,
 };
 use crate::contact::{
-    Colliders, ContactManifold, ContactMemory, ContactPair, ContactProblem, ContactReport, Detection, IgnoredPairs,
-    Materials, PairKey, PointMemory, PositionCorrections, PreviousEnds, RestingModel, Touch, VelocityModel,
+    Colliders, ContactManifold, ContactMemory, ContactPair, ContactProblem, ContactReport, Detection, IgnoredPairs, ImpactTimes,
+    Materials, PairKey, Pass, PointMemory, PositionCorrections, PreviousEnds, RestingModel, Touch, VelocityModel,
     prepare_colliders, renumber_pairs,
 };
 use crate::error::{StepError, UnknownBody};
@@ -98,7 +98,7 @@ impl<D: Geometry> Simulation<D> {
                 let id = self.next_body_id();
                 self.world.entity_mut(entity).insert(id);
             }
-            if self.settings().integrator == Integrator::Ballistic {
+            if self.settings().moves_by() == Integrator::Ballistic {
                 self.world.entity_mut(entity).insert(PreviousVelocity::<D::Vector, D::Angular>::default());
             }
         }
@@ -154,14 +154,25 @@ impl<D: Geometry> Simulation<D> {
             self.begin.run(&mut self.world);
             self.world.insert_resource(Beginning::No);
         }
-        self.step.run(&mut self.world);
-        self.world.clear_trackers();
-        self.check_fault()?;
-        let step = {
-            let mut clock = self.world.resource_mut::<Clock>();
-            clock.step += 1;
-            clock.step
-        };
+        loop {
+            self.step.run(&mut self.world);
+            self.world.clear_trackers();
+            self.check_fault()?;
+            if self.world.resource::<ImpactTimes<D>>().pass == Pass::TakenBack {
+                continue;
+            }
+            let ends = self.world.resource_mut::<Clock>().end_part();
+            if self.world.resource::<ImpactTimes<D>>().arrives {
+                // Impacts have changed how far bodies reach.
+                self.detect()?;
+            }
+            if ends {
+                break;
+            }
+            self.world.resource_mut::<ImpactTimes<D>>().begin_part();
+            self.world.resource_mut::<JointProblem<D>>().begin_part();
+        }
+        let step = self.clock().step;
         if let Some(report) = self.world.resource::<ContactReport>().solved.filter(|r| r.ending == Ending::NotConverged)
         {
             self.world.resource_mut::<Notices>().not_converged(report.residual, step);
@@ -217,7 +228,9 @@ impl<D: Geometry> Simulation<D> {
     pub fn detect(&mut self) -> Result<(), StepError> {
         self.prepare()?;
         if self.known.contains(&Need::Detection) {
+            self.world.insert_resource(Beginning::Yes);
             self.look.run(&mut self.world);
+            self.world.insert_resource(Beginning::No);
         }
         Ok(())
     }
@@ -306,6 +319,7 @@ impl<D: Geometry> Simulation<D> {
     fn forget_last_step(&mut self) {
         *self.world.resource_mut::<ContactReport>() = ContactReport::default();
         *self.world.resource_mut::<Fault>() = Fault::default();
+        self.world.resource_mut::<ImpactTimes<D>>().begin_step();
         if self.known.contains(&Need::Joints) {
             let joints = self.world.resource::<JointTable<D>>().entries().len();
             self.world.resource_mut::<JointProblem<D>>().begin_step(joints);
@@ -341,7 +355,7 @@ impl<D: Geometry> Simulation<D> {
 /// A world with the resources of a simulation.
 pub(crate) fn new_world<D: Geometry>(settings: Settings<D>) -> World {
     let mut world = World::new();
-    world.insert_resource(Clock { step: 0, dt: settings.dt });
+    world.insert_resource(Clock::new(settings.dt));
     world.insert_resource(settings);
     world.init_resource::<Structure>();
     world.init_resource::<Beginning>();
@@ -353,6 +367,7 @@ pub(crate) fn new_world<D: Geometry>(settings: Settings<D>) -> World {
     world.init_resource::<PreviousEnds<D>>();
     world.init_resource::<VelocityModel<D>>();
     world.init_resource::<RestingModel<D>>();
+    world.init_resource::<ImpactTimes<D>>();
     world.init_resource::<JointTable<D>>();
     world.init_resource::<JointProblem<D>>();
     world.init_resource::<ContactReport>();

@@ -13,7 +13,7 @@ use tumble_sim::*;
 fn world(gravity: DVec3, dt: f64) -> (World, bevy_ecs::schedule::Schedule) {
     let mut world = World::new();
     world.insert_resource(Settings::<Spatial> { gravity, dt, ..Settings::weightless() });
-    world.insert_resource(Clock { step: 0, dt });
+    world.insert_resource(Clock::new(dt));
     world.init_resource::<Fault>();
     world.init_resource::<PositionCorrections<Spatial>>();
     let mut schedule = bevy_ecs::schedule::Schedule::default();

@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 use tumble_math::{Linear, PlanarRotation};
 
-use super::{AngularVelocity, LinearVelocity, Orientation, Position};
+use super::{AngularVelocity, LinearVelocity, Orientation, Position, PreviousVelocity};
 use crate::Clock;
 
 /// Where a body is to be at a time.
@@ -42,7 +42,7 @@ impl<V: Linear, W: Linear> Keyframes<V, W> {
     }
 }
 
-/// Gives bodies the velocity that takes them along their keyframes in this step.
+/// Gives bodies the velocity that takes them along their keyframes in this part of the step.
 pub fn follow_keyframes(
     clock: Res<Clock>,
     mut bodies: Query<(
@@ -51,11 +51,16 @@ pub fn follow_keyframes(
         &Orientation<PlanarRotation>,
         &mut LinearVelocity<DVec2>,
         &mut AngularVelocity<f64>,
+        Option<&mut PreviousVelocity<DVec2, f64>>,
     )>,
 ) {
-    for (path, position, orientation, mut velocity, mut angular_velocity) in &mut bodies {
-        let Some((target, angle)) = path.at(clock.time_after_step()) else { continue };
-        velocity.bypass_change_detection().0 = (target - position.0) * (1.0 / clock.dt);
-        angular_velocity.bypass_change_detection().0 = (angle - orientation.0.angle()) * (1.0 / clock.dt);
+    for (path, position, orientation, mut velocity, mut angular_velocity, previous) in &mut bodies {
+        let Some((target, angle)) = path.at(clock.time_after_part()) else { continue };
+        velocity.bypass_change_detection().0 = (target - position.0) * (1.0 / clock.part());
+        angular_velocity.bypass_change_detection().0 = (angle - orientation.0.angle()) * (1.0 / clock.part());
+        if let Some(mut previous) = previous {
+            let previous = previous.bypass_change_detection();
+            (previous.linear, previous.angular) = (velocity.0, angular_velocity.0);
+        }
     }
 }

@@ -17,6 +17,7 @@ use crate::geometry::{ContactQuery, Geometry, Posed};
 use crate::joint::JointTable;
 use crate::notice::Notices;
 use crate::part::Response;
+use crate::simulation::Beginning;
 use crate::{Clock, Settings};
 
 /// Pose and motion of a body as of the last detection.
@@ -261,10 +262,11 @@ pub fn sync_pairs<D: Geometry>(world: &mut World) {
     } else {
         changes.removed.iter().map(|pair| pair_of(pair).key).collect()
     };
+    let time = world.resource::<Clock>().time_after_part();
     let mut ended = Vec::new();
     for key in removed {
         if let Some(entity) = pairs.remove(&key) {
-            end_pair(world, entity, &mut ended);
+            end_pair(world, entity, time, &mut ended);
         }
     }
     spawn_pairs::<D>(world, added, &mut pairs);
@@ -304,10 +306,11 @@ pub(crate) fn renumber_pairs<D: Geometry>(world: &mut World) {
             *known = ContactPair { touching: known.touching, ..pair };
         }
     }
+    let time = world.resource::<Clock>().time();
     let mut ended = Vec::new();
     for (key, entity) in gone {
         pairs.remove(&key);
-        end_pair(world, entity, &mut ended);
+        end_pair(world, entity, time, &mut ended);
     }
     let mut detection = world.resource_mut::<Detection<D>>();
     detection.pairs = pairs;
@@ -315,11 +318,11 @@ pub(crate) fn renumber_pairs<D: Geometry>(world: &mut World) {
     detection.forget_ranks();
 }
 
-fn end_pair(world: &mut World, entity: Entity, ended: &mut Vec<Touch>) {
+fn end_pair(world: &mut World, entity: Entity, time: f64, ended: &mut Vec<Touch>) {
     if let Some(pair) = world.get::<ContactPair>(entity)
         && pair.touching
     {
-        ended.push(Touch { phase: TouchPhase::Ended, pair: pair.key, response: pair.response });
+        ended.push(Touch { phase: TouchPhase::Ended, pair: pair.key, response: pair.response, time });
     }
     world.despawn(entity);
 }
@@ -359,11 +362,14 @@ pub fn find_contacts<D: Geometry>(
     mut detection: ResMut<Detection<D>>,
     mut pairs: Query<(Entity, &mut ContactPair, &mut ContactManifold<D>, &mut ContactMemory<D>)>,
     mut messages: ResMut<Messages<Touch>>,
+    clock: Res<Clock>,
+    beginning: Res<Beginning>,
     fault: Res<Fault>,
 ) {
     if !fault.is_none() {
         return;
     }
+    let time = if *beginning == Beginning::Yes { clock.time() } else { clock.time_after_part() };
     let detection = &mut *detection;
     let touch_tolerance = settings.touch_tolerance();
     let keep_tolerance = touch_tolerance.max(KEEP_TOLERANCE * settings.slop());
@@ -390,16 +396,23 @@ pub fn find_contacts<D: Geometry>(
             D::collide(Posed { shape: shape_a, pose: &a.pose }, Posed { shape: shape_b, pose: &b.pose }, &query);
         let memory = &mut memory.bypass_change_detection().0;
         remember::<D>(&manifold.0, &found, memory);
-        let mut touching = false;
+        let (mut touching, mut hopped) = (false, true);
         for (point, memory) in D::points(&found).iter().zip(memory.as_mut()) {
             let reach = if memory.touches { keep_tolerance } else { touch_tolerance };
-            memory.touches = memory.held || point.separation <= reach;
+            let flies = memory.flies && point.separation > -touch_tolerance;
+            memory.touches = memory.held || point.separation <= reach && !flies;
+            memory.flies &= !memory.touches;
             touching |= memory.touches;
+            hopped &= std::mem::take(&mut memory.hopped) || !memory.touches;
         }
         if touching != pair.touching {
             let phase = if touching { TouchPhase::Began } else { TouchPhase::Ended };
-            detection.touches.push(Touch { phase, pair: pair.key, response: pair.response });
+            detection.touches.push(Touch { phase, pair: pair.key, response: pair.response, time });
             pair.touching = touching;
+        } else if touching && hopped {
+            let [ended, began] = [(TouchPhase::Ended, clock.time()), (TouchPhase::Began, time)]
+                .map(|(phase, time)| Touch { phase, pair: pair.key, response: pair.response, time });
+            detection.touches.extend([ended, began]);
         }
         if pair.response == Response::Solid && !D::points(&found).is_empty() {
             detection.solid.push((pair.colliders, entity));
@@ -409,7 +422,9 @@ pub fn find_contacts<D: Geometry>(
     // Pairs come in the order of their birth; anything computed from them goes by the order of their parts.
     detection.sort_solid_pairs(colliders.as_slice().len());
     if !detection.touches.is_empty() {
-        detection.touches.sort_by_key(|touch| (touch.pair, touch.phase));
+        detection.touches.sort_by(|one, other| {
+            one.time.total_cmp(&other.time).then((one.pair, one.phase).cmp(&(other.pair, other.phase)))
+        });
         messages.write_batch(detection.touches.drain(..));
     }
 }
@@ -425,5 +440,7 @@ fn remember<D: Geometry>(before: &D::Manifold, found: &D::Manifold, memory: &mut
             None => PointMemory { feature: point.feature, ..PointMemory::default() },
         };
         new.feature = point.feature;
+        new.held_back = new.pending.dot(D::normal(found)) > 0.0;
+        new.given += std::mem::replace(&mut new.pending, D::Vector::ZERO);
     }
 }

@@ -9,6 +9,7 @@
 mod approach;
 mod colliders;
 mod detect;
+mod impact_time;
 mod materials;
 mod pair;
 mod penalty;
@@ -18,6 +19,7 @@ mod touch;
 mod velocity;
 
 pub use colliders::{Collider, Colliders, IgnoredPairs};
+pub use impact_time::{ImpactTimes, MOST_PARTS, look_for_impacts};
 pub use detect::{Detection, find_contacts, find_pairs, sync_pairs};
 pub use materials::Materials;
 pub use pair::{ContactManifold, ContactMemory, ContactPair, PairKey, PointMemory};
@@ -29,4 +31,5 @@ pub use velocity::{PositionCorrections, VelocityModel, filter_positions, filter_
 
 pub(crate) use colliders::prepare_colliders;
 pub(crate) use detect::renumber_pairs;
+pub(crate) use impact_time::{Pass, is_taken};
 pub(crate) use problem::BodyQuery;

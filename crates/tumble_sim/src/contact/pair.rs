@@ -58,12 +58,20 @@ pub struct PointMemory<V> {
     pub slip: Slip,
     /// Sum of the impulses of this step, on b in world axes [N·s].
     pub given: V,
+    /// Impulses of phases 1 to 3 of the part of the step being taken, which detection adds to `given` [N·s].
+    pub pending: V,
+    /// Whether the velocity filter, or a resting force, pushed the point in the part of the step that led here.
+    pub held_back: bool,
     /// Separation found by the detection before; `None` for a new point [m].
     pub separation_before: Option<f64>,
     /// Whether the position filter held the point in this step: it met the surface, whatever gap its turning leaves.
     pub held: bool,
     /// Whether the point touches.
     pub touches: bool,
+    /// Whether the point is on its way to its next impact, however small its gap; only where steps are cut at impacts.
+    pub flies: bool,
+    /// Whether the point left at the start of this part of the step and arrived again at its end.
+    pub hopped: bool,
 }
 
 impl<V: Linear> Default for PointMemory<V> {
@@ -73,9 +81,13 @@ impl<V: Linear> Default for PointMemory<V> {
             impulse: V::ZERO,
             slip: Slip::default(),
             given: V::ZERO,
+            pending: V::ZERO,
+            held_back: false,
             separation_before: None,
             held: false,
             touches: false,
+            flies: false,
+            hopped: false,
         }
     }
 }

@@ -31,18 +31,18 @@ pub fn apply_penalty_forces<D: Geometry>(
 ) {
     let PenaltyLaw::SpringDamper(law) = settings.penalty.law else { return };
     let problem = &mut *problem;
-    problem.gather_rows(&detection, &pairs, Points::Touching, 0.0);
+    problem.gather_rows(&detection, &pairs, Points::Touching);
     if problem.rows.is_empty() {
         return;
     }
     problem.gather_bodies(&bodies, detection.motions().len());
     for (row, source) in problem.rows.iter_mut().zip(&problem.sources) {
         let Ok((_, pair, _, mut memory)) = pairs.get_mut(source.entity) else { continue };
-        let contact = spring_damper(&law, pair, row, &problem.bodies, &colliders, clock.dt, &mut notices);
-        let force = penalty::contact_force(row, &problem.bodies, &contact, clock.dt);
-        memory.bypass_change_detection().0.as_mut()[source.point as usize].given += row.frame.apply(force) * clock.dt;
+        let contact = spring_damper(&law, pair, row, &problem.bodies, &colliders, clock.part(), &mut notices);
+        let force = penalty::contact_force(row, &problem.bodies, &contact, clock.part());
+        memory.bypass_change_detection().0.as_mut()[source.point as usize].given += row.frame.apply(force) * clock.part();
         push(row, force, &table, &mut forces);
-        row.impulse = force * clock.dt;
+        row.impulse = force * clock.part();
         if let Some(books) = &mut books {
             books.count_friction(row, force);
         }
@@ -119,7 +119,7 @@ pub fn apply_lecture_floor<D: Geometry>(
     previous.0.resize(list.len(), None);
 
     let problem = &mut *problem;
-    problem.gather_rows(&detection, &pairs, Points::Near, 0.0);
+    problem.gather_rows(&detection, &pairs, Points::Near);
     for (row, source) in problem.rows.iter().zip(&problem.sources) {
         let Ok((_, pair, _, mut memory)) = pairs.get_mut(source.entity) else { continue };
         let Some(rod) = rod_on_half_space::<D>(pair, list) else { continue };
@@ -129,14 +129,14 @@ pub fn apply_lecture_floor<D: Geometry>(
         let point = motion.pose.position + if body == row.b { row.arm_b } else { row.arm_a };
         let k = usize::from((ends[1] - point).length() < (ends[0] - point).length());
         let velocity = match previous.0[rod] {
-            Some(before) => (ends[k] - before[k]) * (1.0 / clock.dt),
+            Some(before) => (ends[k] - before[k]) * (1.0 / clock.part()),
             None => motion.velocity + D::spin(motion.angular_velocity, ends[k] - motion.pose.position),
         };
         // The contact frame describes b against a; the floor pushes the rod, whichever of the two it is.
         let side = if body == row.b { 1.0 } else { -1.0 };
         let in_frame = row.frame.apply_transposed(velocity * side);
         let force = penalty::lecture_force(row.separation, in_frame, &floor);
-        memory.bypass_change_detection().0.as_mut()[source.point as usize].given += row.frame.apply(force) * clock.dt;
+        memory.bypass_change_detection().0.as_mut()[source.point as usize].given += row.frame.apply(force) * clock.part();
         let arm = ends[k] - motion.pose.position;
         push_at::<D>(arm, body, row.frame.apply(force) * side, &table, &mut forces);
         if let Some(books) = &mut books {

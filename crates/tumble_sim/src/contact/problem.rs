@@ -71,6 +71,8 @@ pub struct ContactProblem<D: Geometry> {
     /// How many rows, from the first, the velocity filter is to hold.
     pub(super) resting: usize,
     near: Vec<(ContactRow<D>, RowSource)>,
+    /// Velocities at the start of the part of the step, by rank.
+    starts: Vec<SolverBody<D>>,
     pub(super) prepared: Vec<PreparedRow<D>>,
     pub(super) given: Vec<D::Vector>,
 }
@@ -84,7 +86,7 @@ pub(super) struct RowSource {
     pub held: bool,
     /// Separation found by the detection before; `None` for a new point [m].
     pub separation_before: Option<f64>,
-    /// Whether the velocity filter held the point back in this step.
+    /// Whether the velocity filter held the point back on the way here.
     pub held_back: bool,
 }
 
@@ -97,6 +99,7 @@ impl<D: Geometry> Default for ContactProblem<D> {
             touching: 0,
             resting: 0,
             near: Vec::new(),
+            starts: Vec::new(),
             prepared: Vec::new(),
             given: Vec::new(),
         }
@@ -139,7 +142,6 @@ impl<D: Geometry> ContactProblem<D> {
         detection: &Detection<D>,
         pairs: &PairQuery<D>,
         wanted: Points,
-        touch_tolerance: f64,
     ) {
         self.rows.clear();
         self.sources.clear();
@@ -171,9 +173,9 @@ impl<D: Geometry> ContactProblem<D> {
                     point: number as u8,
                     held: memory.held,
                     separation_before: memory.separation_before,
-                    held_back: memory.given.dot(row.normal()) > 0.0,
+                    held_back: memory.held_back,
                 };
-                if point.separation <= touch_tolerance || memory.touches {
+                if memory.touches {
                     self.rows.push(row);
                     self.sources.push(source);
                 } else if wanted == Points::Near {
@@ -191,8 +193,13 @@ impl<D: Geometry> ContactProblem<D> {
     /// Moves rows with a gap that rest all the same to those that touch: points that approach no faster than gravity makes them in a
     /// step and a half, across a gap that this speed can close. Without them, a resting point that solver error has
     /// lifted by a hair would fall, and land, and be lifted again.
-    pub(super) fn admit_resting(&mut self, settings: &Settings<D>) {
+    ///
+    /// Where steps are cut at impacts, touching points that part instead are set aside: they fly.
+    pub(super) fn admit_resting(&mut self, settings: &Settings<D>, bodies: &BodyQuery<D>) {
         self.resting = self.touching;
+        if settings.cuts_at_impacts() {
+            return self.set_aside_leaving(settings, bodies);
+        }
         for i in self.resting..self.rows.len() {
             let slow = 3.0 * settings.rest_speed(self.rows[i].normal());
             let row = &self.rows[i];
@@ -201,6 +208,27 @@ impl<D: Geometry> ContactProblem<D> {
                 self.rows.swap(i, self.resting);
                 self.sources.swap(i, self.resting);
                 self.resting += 1;
+            }
+        }
+    }
+
+    fn set_aside_leaving(&mut self, settings: &Settings<D>, bodies: &BodyQuery<D>) {
+        self.starts.clear();
+        self.starts.resize(self.bodies.len(), SolverBody::default());
+        for (index, velocity, spin, .., previous, _) in bodies {
+            let start = &mut self.starts[index.0 as usize];
+            (start.velocity, start.angular_velocity) =
+                previous.map_or((velocity.0, spin.0), |previous| (previous.linear, previous.angular));
+        }
+        let mut i = 0;
+        while i < self.resting {
+            let row = &self.rows[i];
+            if row.separating_speed(&self.starts) > settings.rest_speed(row.normal()) {
+                self.resting -= 1;
+                self.rows.swap(i, self.resting);
+                self.sources.swap(i, self.resting);
+            } else {
+                i += 1;
             }
         }
     }

@@ -101,7 +101,7 @@ pub fn apply_resting_forces<D: Geometry>(
     let RestingModel { lcp, rows, gaps, accelerations, forces: found, .. } = model;
     let resting = RestingSettings { sliding_above: settings.touch_tolerance(), ..RestingSettings::default() };
     let solved = lcp.solve(&problem.bodies, accelerations, rows, gaps, found, joints.as_joints(), &resting);
-    report.add_resting(&solved, clock.dt);
+    report.add_resting(&solved, clock.part());
     model.unsolved = solved.no_solution + solved.too_large > 0;
     note(&mut notices, &solved, clock.step + 1);
 
@@ -121,13 +121,13 @@ pub fn apply_resting_forces<D: Geometry>(
         if let Some(books) = &mut books {
             books.count_friction(row, *force);
         }
-        row.impulse = *force * clock.dt;
+        row.impulse = *force * clock.part();
         let (problem_row, source) = (&mut problem.rows[*source as usize], problem.sources[*source as usize]);
         (problem_row.impulse, problem_row.slip) = (row.impulse, row.slip);
         if let Ok((.., mut memory)) = pairs.get_mut(source.entity) {
             let memory = &mut memory.bypass_change_detection().0.as_mut()[source.point as usize];
             (memory.impulse, memory.slip) = (row.impulse, row.slip);
-            memory.given += world * clock.dt;
+            memory.pending += world * clock.part();
         }
     }
 }

@@ -14,8 +14,8 @@ pub enum TouchPhase {
     Ended,
 }
 
-/// Two parts began or ceased to touch. Within a step: in the order of pairs, by body ids and part numbers.
-#[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
+/// Two parts began or ceased to touch. Of one time: in the order of pairs, by body ids and part numbers.
+#[derive(Message, Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
     /// Began or ended.
     pub phase: TouchPhase,
@@ -23,4 +23,6 @@ pub struct Touch {
     pub pair: PairKey,
     /// Sensor if one of the parts is.
     pub response: Response,
+    /// When it was found: the end of the step, or of a part of one that was cut at an impact [s].
+    pub time: f64,
 }

@@ -10,7 +10,7 @@ use tumble_solver::position::{Displacements, PositionSettings};
 use tumble_solver::velocity_lcp::{Rebound, VelocityLcp};
 use tumble_solver::{ContactRow, Slip, SolverBody};
 
-use super::approach::Reading;
+use super::approach::{Reading, at_impact};
 use super::problem::{BodyQuery, ContactProblem, ContactReport, PairQuery, Points};
 use super::{Detection, RestingModel};
 use crate::body::BodyTable;
@@ -72,7 +72,7 @@ pub fn filter_velocities<D: Geometry>(
     }
     problem.gather_bodies(&bodies, table.entries().len());
     joints.build(&joint_table, ContactProblem::poses(&bodies), &problem.bodies);
-    problem.admit_resting(&settings);
+    problem.admit_resting(&settings, &bodies);
     if problem.resting == 0 && joints.is_empty() {
         return;
     }
@@ -121,7 +121,7 @@ pub fn filter_velocities<D: Geometry>(
         if let Ok((.., mut memory)) = pairs.get_mut(source.entity) {
             let memory = &mut memory.bypass_change_detection().0.as_mut()[source.point as usize];
             (memory.impulse, memory.slip) = (row.impulse, row.slip);
-            memory.given += row.frame.apply(row.impulse);
+            memory.pending += row.frame.apply(row.impulse);
         }
     }
 }
@@ -151,13 +151,13 @@ pub fn filter_positions<D: Geometry>(
         slop: settings.slop(),
         recovery: settings.impulse.recovery,
     };
-    corrections.0.find(&problem.bodies, &problem.rows, clock.dt, &filter);
+    corrections.0.find(&problem.bodies, &problem.rows, clock.part(), &filter);
     if !joints.is_empty() {
         if corrections.0.bodies.is_empty() {
             corrections.0.begin(&problem.bodies);
         }
         let (displaced, tolerance) = (&mut corrections.0.bodies, joint_tolerance(&settings));
-        joints.mend(&joint_table, displaced, &problem.bodies, clock.dt, tolerance);
+        joints.mend(&joint_table, displaced, &problem.bodies, clock.part(), tolerance);
     }
 
     for (i, source) in problem.sources.iter().enumerate() {
@@ -190,7 +190,7 @@ pub fn resolve_impulses<D: Geometry>(
         return;
     }
     let problem = &mut *problem;
-    problem.gather_rows(&detection, &pairs, Points::Near, settings.touch_tolerance());
+    problem.gather_rows(&detection, &pairs, Points::Near);
     if problem.touching == 0 {
         return;
     }
@@ -207,16 +207,20 @@ pub fn resolve_impulses<D: Geometry>(
 
     // Slower approaches than this are left to the velocity filter of the next step, which stops all of them at once.
     let threshold = |row: &ContactRow<D>| match (settings.impulse.colliding_above, row.surface.restitution) {
+        _ if settings.cuts_at_impacts() => 0.0,
         (Some(_), _) => 0.0,
         (None, 0.0) => 0.5 * settings.gravity.length() * settings.dt,
         (None, _) => 0.02 * settings.rest_speed(row.normal()),
     };
     let reading =
-        Reading { dt: clock.dt, integrator: settings.integrator, touch_tolerance: settings.touch_tolerance() };
+        Reading { dt: clock.part(), integrator: settings.moves_by(), touch_tolerance: settings.touch_tolerance() };
     let mut approaches: Vec<Approach> = rows
         .iter()
         .zip(sources)
         .map(|(row, source)| match *beginning {
+            Beginning::No if settings.cuts_at_impacts() => {
+                at_impact(-row.separating_speed(&problem.bodies), source, settings.rest_speed(row.normal()))
+            }
             Beginning::No => {
                 let approach = reading.approach(row, -row.separating_speed(&problem.bodies), source, &detection);
                 Approach { threshold: threshold(row), ..approach }

@@ -85,8 +85,8 @@ pub fn apply_forces<D: Dim<Vector: InDim>>(
     applied: Query<&AppliedForce<D>>,
     mut bodies: Query<(&Orientation<D::Rotation>, &mut Force<D::Vector>, &mut Torque<D::Angular>)>,
 ) {
-    let time = match settings.integrator {
-        Integrator::SymplecticEuler => clock.time_after_step(),
+    let time = match settings.moves_by() {
+        Integrator::SymplecticEuler => clock.time_after_part(),
         Integrator::Ballistic => clock.time(),
     };
     for applied in &applied {

@@ -22,6 +22,8 @@ pub struct JointProblem<D: Geometry> {
     given: Vec<(D::Vector, D::Angular)>,
     /// Impulse of each row in phases 1 to 4 of this step, along its direction before the move [N·s], [N·m·s].
     before_move: Vec<f64>,
+    /// `given` when this part of the step began.
+    given_before: Vec<(D::Vector, D::Angular)>,
     /// Rows of moved poses.
     moved: Vec<JointRow<D>>,
     moved_block: JointBlock<D>,
@@ -37,6 +39,7 @@ impl<D: Geometry> Default for JointProblem<D> {
             poses: Vec::new(),
             given: Vec::new(),
             before_move: Vec::new(),
+            given_before: Vec::new(),
             moved: Vec::new(),
             moved_block: JointBlock::default(),
             speeds: Vec::new(),
@@ -81,7 +84,19 @@ impl<D: Geometry> JointProblem<D> {
     pub(crate) fn begin_step(&mut self, joints: usize) {
         self.given.clear();
         self.given.resize(joints, (D::Vector::ZERO, D::Angular::ZERO));
+        self.begin_part();
+    }
+
+    /// Begins a part of a step.
+    pub(crate) fn begin_part(&mut self) {
         self.before_move.clear();
+        self.given_before.clone_from(&self.given);
+    }
+
+    /// Forgets what the joints gave in this part.
+    pub(crate) fn take_back_part(&mut self) {
+        self.before_move.clear();
+        self.given.clone_from(&self.given_before);
     }
 
     /// Builds the rows at these poses (by rank, without the world) and factors them; `bodies` has the world last.

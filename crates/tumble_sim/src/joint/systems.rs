@@ -31,11 +31,11 @@ pub fn correct_curvature<D: Geometry>(
     let problem = &mut *problem;
     problem.gather_mean_velocities(&bodies);
     let before = problem.bodies.clone();
-    let share = match settings.integrator {
+    let share = match settings.moves_by() {
         Integrator::SymplecticEuler => 1.0,
         Integrator::Ballistic => 0.5,
     };
-    if !joints.follow_curvature(&table, &mut problem.bodies, clock.dt, share, joint_tolerance(&settings)) {
+    if !joints.follow_curvature(&table, &mut problem.bodies, clock.part(), share, joint_tolerance(&settings)) {
         // The position filter mends what is left, without the velocities.
         return;
     }
@@ -66,7 +66,7 @@ pub(crate) fn stop_joints<D: Geometry>(
     mut fault: ResMut<Fault>,
     mut bodies: BodyQuery<D>,
 ) {
-    let at_the_end = settings.integrator == Integrator::Ballistic || *beginning == Beginning::Yes;
+    let at_the_end = settings.moves_by() == Integrator::Ballistic || *beginning == Beginning::Yes;
     if table.entries().is_empty() || !fault.is_none() || !at_the_end {
         return;
     }
@@ -104,10 +104,10 @@ pub fn apply_joint_springs<D: Geometry>(
         if compliance <= 0.0 {
             continue;
         }
-        let stiffness = penalty::default_stiffness(compliance, 1.0, clock.dt);
+        let stiffness = penalty::default_stiffness(compliance, 1.0, clock.part());
         let damping = penalty::damping_coefficient(stiffness, compliance, 1.0);
         let force = -(stiffness * row.error + damping * row.speed(&problem.bodies));
-        row.impulse = force * clock.dt;
+        row.impulse = force * clock.part();
         for (body, side, angular) in [(row.a, -1.0, row.angular_a), (row.b, 1.0, row.angular_b)] {
             let Some(entry) = ranks.entries().get(body as usize) else { continue };
             if let Ok((mut sum, mut torque)) = forces.get_mut(entry.entity) {
