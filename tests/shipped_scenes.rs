@@ -45,6 +45,7 @@ macro_rules! scenes {
 
 scenes! {
     angle_of_repose,
+    bouncing_ball,
     bouncing_rod,
     box_stack,
     dominoes,

@@ -127,6 +127,7 @@ fn settings(scene: &Scene) -> Settings {
             Integrator::SymplecticEuler => tumble_sim::Integrator::SymplecticEuler,
             Integrator::Ballistic => tumble_sim::Integrator::Ballistic,
         },
+        time_of_impact: scene.time_of_impact,
         contact: scene.contact.into(),
         penalty: penalty_settings(&scene.models.penalty, scene.length_scale),
         impulse: impulse_settings(&scene.models.impulse),

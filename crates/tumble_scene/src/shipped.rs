@@ -22,6 +22,7 @@ macro_rules! shipped {
 /// Every shipped scene, by name.
 pub const SHIPPED: &[Shipped] = shipped![
     "angle_of_repose",
+    "bouncing_ball",
     "bouncing_rod",
     "box_stack",
     "dominoes",

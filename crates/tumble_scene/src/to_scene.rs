@@ -137,6 +137,7 @@ fn with_settings(settings: &Settings, origin: Option<&Scene>) -> Result<Scene, U
             tumble_sim::Integrator::SymplecticEuler => Integrator::SymplecticEuler,
             tumble_sim::Integrator::Ballistic => Integrator::Ballistic,
         },
+        time_of_impact: settings.time_of_impact,
         contact: settings.contact.into(),
         models: ModelEntries {
             penalty: penalty_entry(&settings.penalty, settings.length_scale),

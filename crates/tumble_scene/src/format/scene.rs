@@ -38,6 +38,10 @@ pub struct Scene {
     /// How velocity and position advance. Default SymplecticEuler.
     #[serde(default)]
     pub integrator: Integrator,
+    /// Whether steps are cut at impacts, so that bounces happen at their times; bodies then move as with Ballistic. The penalty
+    /// model ignores it. Default false.
+    #[serde(default)]
+    pub time_of_impact: bool,
     /// The contact model that runs, unless the command line chooses another. Default Impulse.
     #[serde(default)]
     pub contact: ContactModel,
@@ -123,6 +127,7 @@ impl Default for Scene {
             length_scale: one(),
             slop: None,
             integrator: Integrator::default(),
+            time_of_impact: false,
             contact: ContactModel::default(),
             models: ModelEntries::default(),
             every: default_every(),
