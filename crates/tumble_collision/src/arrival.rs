@@ -131,11 +131,7 @@ mod tests {
         let omega = 4.0 * std::f64::consts::PI;
         let dips = |t: f64| {
             let (sin, cos) = tumble_math::trig::sin_cos(omega * t);
-            Gap {
-                separation: 0.9 + cos - 0.2 * t,
-                rate: -omega * sin - 0.2,
-                bend: -omega * omega * cos,
-            }
+            Gap { separation: 0.9 + cos - 0.2 * t, rate: -omega * sin - 0.2, bend: -omega * omega * cos }
         };
         let arrival = first_arrival(&search(1.0, omega + 0.2), dips).expect("it dips");
         assert!(arrival > 0.2 && arrival < 0.25, "{arrival}");

@@ -15,9 +15,9 @@ use crate::body::{
     prepare_bodies,
 };
 use crate::contact::{
-    Colliders, ContactManifold, ContactMemory, ContactPair, ContactProblem, ContactReport, Detection, IgnoredPairs, ImpactTimes,
-    Materials, PairKey, Pass, PointMemory, PositionCorrections, PreviousEnds, RestingModel, Touch, VelocityModel,
-    prepare_colliders, renumber_pairs,
+    Colliders, ContactManifold, ContactMemory, ContactPair, ContactProblem, ContactReport, Detection, IgnoredPairs,
+    ImpactTimes, Materials, PairKey, Pass, PointMemory, PositionCorrections, PreviousEnds, RestingModel, Touch,
+    VelocityModel, prepare_colliders, renumber_pairs,
 };
 use crate::error::{StepError, UnknownBody};
 use crate::fault::Fault;

@@ -144,7 +144,8 @@ fn a_box_dropped_flat_lands_on_both_corners_at_once() {
 #[test]
 fn a_plastic_rod_lands_end_after_end_and_rests() {
     for contact in EVENT_DRIVEN {
-        let mut simulation = simulation(cut(contact, 0.01), Surface { static_friction: 0.5, kinetic_friction: 0.5, restitution: 0.0 });
+        let mut simulation =
+            simulation(cut(contact, 0.01), Surface { static_friction: 0.5, kinetic_friction: 0.5, restitution: 0.0 });
         floor(&mut simulation);
         rod(2.0, 1.0).at(0.0, 1.0).turned(0.3).spawn(&mut simulation, "rod");
         simulation.run_for(3.0).unwrap();
@@ -158,12 +159,14 @@ fn a_plastic_rod_lands_end_after_end_and_rests() {
 
 #[test]
 fn c4_cradle_of_separate_balls_passes_the_speed_on_at_its_times() {
-    let mut simulation =
-        simulation(Settings { time_of_impact: true, ..weightless(0.05) }, bouncing(1.0));
+    let mut simulation = simulation(Settings { time_of_impact: true, ..weightless(0.05) }, bouncing(1.0));
     let gap = 0.01;
     for k in 0..5 {
         let speed = if k == 0 { 1.0 } else { 0.0 };
-        ball(0.1, 1.0).at((0.2 + gap) * f64::from(k), 0.0).moving(speed, 0.0).spawn(&mut simulation, &format!("ball-{k}"));
+        ball(0.1, 1.0)
+            .at((0.2 + gap) * f64::from(k), 0.0)
+            .moving(speed, 0.0)
+            .spawn(&mut simulation, &format!("ball-{k}"));
     }
     let times = touch_times(&mut simulation, 0.2);
     assert_eq!(times.len(), 4);
@@ -178,10 +181,8 @@ fn c4_cradle_of_separate_balls_passes_the_speed_on_at_its_times() {
 #[test]
 fn a_fast_ball_between_walls_bounces_many_times_in_a_step() {
     // 100 m/s across 1 m: five bounces in each step of 0.05 s.
-    let mut simulation = simulation(
-        Settings { time_of_impact: true, speculative_limit: Some(10.0), ..weightless(0.05) },
-        bouncing(1.0),
-    );
+    let mut simulation =
+        simulation(Settings { time_of_impact: true, speculative_limit: Some(10.0), ..weightless(0.05) }, bouncing(1.0));
     support::wall(&mut simulation, "left", DVec2::X);
     let right = simulation.spawn((
         bevy_ecs::name::Name::new("right"),
@@ -203,7 +204,8 @@ fn a_fast_ball_between_walls_bounces_many_times_in_a_step() {
 #[test]
 fn the_ledger_closes_in_steps_that_are_cut() {
     for contact in EVENT_DRIVEN {
-        let mut simulation = simulation(cut(contact, 0.01), Surface { static_friction: 0.4, kinetic_friction: 0.3, restitution: 0.6 });
+        let mut simulation =
+            simulation(cut(contact, 0.01), Surface { static_friction: 0.4, kinetic_friction: 0.3, restitution: 0.6 });
         simulation.keep_ledger();
         floor(&mut simulation);
         block(1.0, 0.5, 2.0).at(0.0, 1.5).turned(0.4).moving(2.0, 0.0).spawn(&mut simulation, "box");

@@ -44,8 +44,8 @@ impl Run<'_> {
         let touches: Vec<&Touch> = self.timeline.recording.touches.iter().filter(is_meant).collect();
         let mut times = Vec::new();
         let mut touching_parts = 0_usize;
-        // A step counts as a whole: parts may take over from each other within it.
-        for step in touches.chunk_by(|earlier, later| earlier.step == later.step) {
+        // What is found at one time counts as a whole: parts may take over from each other in a step.
+        for step in touches.chunk_by(|earlier, later| earlier.time == later.time) {
             let touched = touching_parts > 0;
             let begun = step.iter().filter(|touch| touch.phase == TouchPhase::Begin).count();
             touching_parts = (touching_parts + begun).saturating_sub(step.len() - begun);

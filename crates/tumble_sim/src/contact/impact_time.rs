@@ -64,7 +64,14 @@ pub struct ImpactTimes<D: Geometry> {
 
 impl<D: Geometry> Default for ImpactTimes<D> {
     fn default() -> Self {
-        Self { pass: Pass::Look, parts: 0, courses: Vec::new(), flights: Vec::new(), points: Vec::new(), arrives: false }
+        Self {
+            pass: Pass::Look,
+            parts: 0,
+            courses: Vec::new(),
+            flights: Vec::new(),
+            points: Vec::new(),
+            arrives: false,
+        }
     }
 }
 
@@ -375,7 +382,8 @@ impl<D: Geometry> ImpactTimes<D> {
             let Ok((_, pair, manifold, mut memory)) = pairs.get_mut(flight.entity) else { continue };
             let points = &self.points[flight.first as usize..(flight.first + flight.count) as usize];
             let arrives = flight.arrival.is_some_and(|arrival| arrival <= until);
-            let there = arrives.then(|| meeting(pair, manifold, colliders, detection, &self.courses, settings).manifold(end).0);
+            let there =
+                arrives.then(|| meeting(pair, manifold, colliders, detection, &self.courses, settings).manifold(end).0);
             let closed = |feature: FeatureId| {
                 let points = there.as_ref().map_or(&[][..], |manifold| D::points(manifold));
                 points.iter().any(|point| point.feature == feature && point.separation <= settings.touch_tolerance())
@@ -441,13 +449,8 @@ fn first_of_pair<D: Geometry>(
         let wanted = |feature: FeatureId| {
             points.iter().find(|point| point.feature == feature).is_none_or(|point| point.state.is_awaited(from))
         };
-        let search = Search {
-            from,
-            until,
-            fastest,
-            near: NEAR * settings.length_scale,
-            slowest: settings.colliding_above(),
-        };
+        let search =
+            Search { from, until, fastest, near: NEAR * settings.length_scale, slowest: settings.colliding_above() };
         if let Some(arrival) = first_arrival(&search, |time| meeting.gap(time, wanted)) {
             first = Some(first.map_or(arrival, |known| known.min(arrival)));
             break;

@@ -19,8 +19,8 @@ mod touch;
 mod velocity;
 
 pub use colliders::{Collider, Colliders, IgnoredPairs};
-pub use impact_time::{ImpactTimes, MOST_PARTS, look_for_impacts};
 pub use detect::{Detection, find_contacts, find_pairs, sync_pairs};
+pub use impact_time::{ImpactTimes, MOST_PARTS, look_for_impacts};
 pub use materials::Materials;
 pub use pair::{ContactManifold, ContactMemory, ContactPair, PairKey, PointMemory};
 pub use penalty::{PreviousEnds, apply_lecture_floor, apply_penalty_forces};

@@ -40,7 +40,8 @@ pub fn apply_penalty_forces<D: Geometry>(
         let Ok((_, pair, _, mut memory)) = pairs.get_mut(source.entity) else { continue };
         let contact = spring_damper(&law, pair, row, &problem.bodies, &colliders, clock.part(), &mut notices);
         let force = penalty::contact_force(row, &problem.bodies, &contact, clock.part());
-        memory.bypass_change_detection().0.as_mut()[source.point as usize].given += row.frame.apply(force) * clock.part();
+        memory.bypass_change_detection().0.as_mut()[source.point as usize].given +=
+            row.frame.apply(force) * clock.part();
         push(row, force, &table, &mut forces);
         row.impulse = force * clock.part();
         if let Some(books) = &mut books {
@@ -136,7 +137,8 @@ pub fn apply_lecture_floor<D: Geometry>(
         let side = if body == row.b { 1.0 } else { -1.0 };
         let in_frame = row.frame.apply_transposed(velocity * side);
         let force = penalty::lecture_force(row.separation, in_frame, &floor);
-        memory.bypass_change_detection().0.as_mut()[source.point as usize].given += row.frame.apply(force) * clock.part();
+        memory.bypass_change_detection().0.as_mut()[source.point as usize].given +=
+            row.frame.apply(force) * clock.part();
         let arm = ends[k] - motion.pose.position;
         push_at::<D>(arm, body, row.frame.apply(force) * side, &table, &mut forces);
         if let Some(books) = &mut books {

@@ -137,12 +137,7 @@ pub(super) enum Points {
 
 impl<D: Geometry> ContactProblem<D> {
     /// Gathers the points of solid pairs.
-    pub(super) fn gather_rows(
-        &mut self,
-        detection: &Detection<D>,
-        pairs: &PairQuery<D>,
-        wanted: Points,
-    ) {
+    pub(super) fn gather_rows(&mut self, detection: &Detection<D>, pairs: &PairQuery<D>, wanted: Points) {
         self.rows.clear();
         self.sources.clear();
         self.near.clear();
