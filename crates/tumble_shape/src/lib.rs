@@ -39,5 +39,6 @@ pub use given::MassError;
 pub use mass::{MassDim, MassProperties};
 pub use planar::{ConvexPolygon, Disc, HalfPlane, PlanarShape, Rod};
 pub use spatial::{
-    Capsule, Cone, ConvexHull, Cuboid, Cylinder, HalfSpace, SpatialRod, SpatialShape, SpatialShapeError, Sphere,
+    Capsule, Cone, ConvexHull, Cuboid, Cylinder, Facet, HalfSpace, MeshError, SpatialRod, SpatialShape,
+    SpatialShapeError, Sphere, TriangleMesh,
 };

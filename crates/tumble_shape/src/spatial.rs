@@ -9,7 +9,8 @@
 //! ```
 //!
 //! Spheres, rods, capsules, boxes and hulls are a *core* and a radius, as in the plane: a point, a segment or a polyhedron, grown
-//! by the radius. A compound is a list of parts, each with a shape; [`MassProperties::combine`] adds them up.
+//! by the radius. A compound is a list of parts, each with a shape; [`MassProperties::combine`] adds them up. A [`TriangleMesh`] or
+//! height field is a list of [`Facet`]s.
 
 mod axis;
 mod capsule;
@@ -23,6 +24,7 @@ mod hull;
 mod polyhedron_mass;
 mod rod;
 mod sphere;
+mod triangle_mesh;
 
 pub use capsule::Capsule;
 pub use cone::Cone;
@@ -33,6 +35,7 @@ pub use error::SpatialShapeError;
 pub use half_space::HalfSpace;
 pub use rod::SpatialRod;
 pub use sphere::Sphere;
+pub use triangle_mesh::{Facet, MeshError, TriangleMesh};
 
 use glam::DVec3;
 use tumble_math::{Bounds, Pose, Rotation, Spatial, SpatialRotation};
@@ -58,6 +61,8 @@ pub enum SpatialShape {
     Cone(Cone),
     /// Everything on one side of a plane: a floor or a wall.
     HalfSpace(HalfSpace),
+    /// A triangle of ground that does not move.
+    Facet(Facet),
 }
 
 impl SpatialShape {
@@ -70,6 +75,7 @@ impl SpatialShape {
             Self::Capsule(capsule) => capsule.ends(),
             Self::Cuboid(cuboid) => cuboid.hull().vertices(),
             Self::ConvexHull(hull) => hull.vertices(),
+            Self::Facet(facet) => facet.prism().vertices(),
             Self::Cylinder(_) | Self::Cone(_) | Self::HalfSpace(_) => &[],
         }
     }
@@ -154,10 +160,12 @@ impl SpatialShape {
             Self::Cylinder(cylinder) => Self::Cylinder(cylinder.posed(pose)),
             Self::Cone(cone) => Self::Cone(cone.posed(pose)),
             Self::HalfSpace(half_space) => Self::HalfSpace(half_space.posed(pose)),
+            Self::Facet(facet) => Self::Facet(facet.posed(pose)),
         }
     }
 
-    /// Mass properties at a density: of a rod's line [kg/m], of the volume of others [kg/m³]; `None` for a half-space.
+    /// Mass properties at a density: of a rod's line [kg/m], of the volume of others [kg/m³]; `None` for ground: half-spaces and
+    /// facets.
     pub fn mass_properties(&self, density: f64) -> Option<MassProperties<Spatial>> {
         match self {
             Self::Sphere(sphere) => Some(sphere.mass_properties(density)),
@@ -167,11 +175,11 @@ impl SpatialShape {
             Self::ConvexHull(hull) => Some(hull.mass_properties(density)),
             Self::Cylinder(cylinder) => Some(cylinder.mass_properties(density)),
             Self::Cone(cone) => Some(cone.mass_properties(density)),
-            Self::HalfSpace(_) => None,
+            Self::HalfSpace(_) | Self::Facet(_) => None,
         }
     }
 
-    /// Mass properties when the mass is given, spread evenly [kg]; `None` for a half-space.
+    /// Mass properties when the mass is given, spread evenly [kg]; `None` for ground.
     pub fn mass_properties_of_mass(&self, mass: f64) -> Option<MassProperties<Spatial>> {
         let unit = self.mass_properties(1.0)?;
         Some(MassProperties { mass, ..unit.scaled(mass / unit.mass) })
@@ -188,7 +196,7 @@ macro_rules! into_shape {
     )*};
 }
 
-into_shape!(Sphere, SpatialRod, Capsule, Cuboid, ConvexHull, Cylinder, Cone, HalfSpace);
+into_shape!(Sphere, SpatialRod, Capsule, Cuboid, ConvexHull, Cylinder, Cone, HalfSpace, Facet);
 
 /// How far a circle reaches from its middle along each axis: r √(1 − u²) for its unit normal u [m].
 fn rim_reach(direction: DVec3, radius: f64) -> DVec3 {

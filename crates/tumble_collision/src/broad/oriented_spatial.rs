@@ -34,7 +34,7 @@ impl SpatialOrientedBox {
             SpatialShape::Cylinder(cylinder) => along_line(cylinder.ends(), flat(cylinder.radius())),
             SpatialShape::Cone(cone) => along_line(&[cone.base(), cone.tip()], flat(cone.radius())),
             SpatialShape::Cuboid(cuboid) => (cuboid.centre(), *cuboid.axes(), cuboid.half_extents()),
-            SpatialShape::ConvexHull(_) => {
+            SpatialShape::ConvexHull(_) | SpatialShape::Facet(_) => {
                 let bounds = shape.bounds(&Pose::default())?;
                 (bounds.centre(), DMat3::IDENTITY, bounds.size() * 0.5)
             }

@@ -38,6 +38,12 @@
 //! Overlapping polyhedra are never a vertex–vertex, vertex–edge or parallel pair: a face is at least as good an axis.
 //! What has a radius is `round-…` instead: on a face, on a vertex or edge, or on something round.
 //!
+//! # Ground of triangles
+//!
+//! A facet of a mesh collides as the prism below its triangle. A normal that leans over one of its sides further than the neighbour's
+//! does is that of an inner edge, and nothing touches along it: what lies above the triangle itself touches its face instead, and
+//! the rest is left to the neighbours (`facet.rs`).
+//!
 //! # Rules shared with the plane
 //!
 //! The rule against ghost bumps is the one of [`planar`](super::planar#no-ghost-bumps): when a face across the best
@@ -58,6 +64,7 @@ mod core;
 mod cut;
 mod draft;
 mod face;
+mod facet;
 mod gjk;
 mod half_space;
 mod hulls;
@@ -113,10 +120,11 @@ pub fn collide(
 fn rank(shape: &SpatialShape) -> u8 {
     match shape {
         SpatialShape::HalfSpace(_) => 0,
-        SpatialShape::Cuboid(_) | SpatialShape::ConvexHull(_) => 1,
-        SpatialShape::SpatialRod(_) | SpatialShape::Capsule(_) => 2,
-        SpatialShape::Sphere(_) => 3,
-        SpatialShape::Cylinder(_) | SpatialShape::Cone(_) => 4,
+        SpatialShape::Facet(_) => 1,
+        SpatialShape::Cuboid(_) | SpatialShape::ConvexHull(_) => 2,
+        SpatialShape::SpatialRod(_) | SpatialShape::Capsule(_) => 3,
+        SpatialShape::Sphere(_) => 4,
+        SpatialShape::Cylinder(_) | SpatialShape::Cone(_) => 5,
     }
 }
 
@@ -139,6 +147,8 @@ fn ordered(
     }
     let Some(solid_a) = solid_a else { return SpatialManifold::EMPTY };
     match (solid_a, solid_b) {
+        // The sides of its prism are no sides of anything: the rule against ghost bumps is not for them.
+        (Solid::Facet(facet), other) => facet::collide(&Pair { flush: 0.0, ..pair }, facet, &other),
         (Solid::Hull(a, box_a), Solid::Hull(b, box_b)) => hulls::collide(&pair, a, b, box_a.zip(box_b)),
         (Solid::Hull(hull, _), Solid::Segment(ends, radius)) => round::collide(&pair, hull, ends, radius),
         (Solid::Hull(hull, _), Solid::Point(centre, radius)) => round::collide(&pair, hull, &[centre], radius),
@@ -163,6 +173,7 @@ struct Pair<'a> {
     b_in_a: Place,
     /// Distance of the two origins and the reach of both shapes, for tolerances of rounding [m].
     size: f64,
+    flush: f64,
     query: &'a SpatialQuery<'a>,
 }
 
@@ -171,7 +182,14 @@ impl<'a> Pair<'a> {
         let a_in_world = Place::of(pose_a, DVec3::ZERO);
         let b_in_world = Place::of(pose_b, DVec3::ZERO);
         let b_in_a = b_in_world.seen_from(&a_in_world);
-        Self { a_in_world, b_in_world, b_in_a, size: b_in_a.origin.length() + reach, query }
+        Self {
+            a_in_world,
+            b_in_world,
+            b_in_a,
+            size: b_in_a.origin.length() + reach,
+            flush: query.flush_tolerance * FLUSH_SLACK,
+            query,
+        }
     }
 
     /// By how much another axis must be better to be taken [m].
@@ -183,8 +201,9 @@ impl<'a> Pair<'a> {
         ROUND_OFF * self.size
     }
 
+    /// Overlap that counts as flush [m].
     fn flush(&self) -> f64 {
-        self.query.flush_tolerance * FLUSH_SLACK
+        self.flush
     }
 
     /// A direction along which the pair was apart the last time, in the frame of a.

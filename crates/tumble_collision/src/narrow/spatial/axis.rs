@@ -87,8 +87,11 @@ impl FlushFaces {
     /// Notes a face with its separation [m]; of more than four flush ones the rest is left out.
     #[inline]
     pub(super) fn note(&mut self, normal: DVec3, separation: f64, limits: &Limits) {
+        if limits.flush == 0.0 {
+            return;
+        }
         let beyond = separation.abs() - limits.flush;
-        if beyond > 0.0 || limits.flush == 0.0 {
+        if beyond > 0.0 {
             self.clear = self.clear.min(beyond);
         } else if self.count < self.normals.len() {
             self.normals[self.count] = normal;
@@ -99,7 +102,9 @@ impl FlushFaces {
     /// Notes a face that is known to be deeper than flush, its separation at most `bound` [m].
     #[inline]
     pub(super) fn note_deep(&mut self, bound: f64, limits: &Limits) {
-        self.clear = self.clear.min(-bound - limits.flush);
+        if limits.flush > 0.0 {
+            self.clear = self.clear.min(-bound - limits.flush);
+        }
     }
 
     /// Whether one of them runs across an axis.

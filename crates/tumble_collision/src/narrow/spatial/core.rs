@@ -1,7 +1,7 @@
 //! Cores: what is left of a shape when its radius is taken off.
 
 use glam::DVec3;
-use tumble_shape::{ConvexHull, Cuboid, SpatialShape};
+use tumble_shape::{ConvexHull, Cuboid, Facet, SpatialShape};
 
 use super::place::Place;
 
@@ -47,6 +47,8 @@ pub(super) enum Solid<'a> {
     Segment(&'a [DVec3; 2], f64),
     /// A point with a radius.
     Point(DVec3, f64),
+    /// A triangle of ground.
+    Facet(&'a Facet),
     /// A cylinder, or a cone from its base to its tip: both ends of the axis, and the radii there.
     Rims([DVec3; 2], [f64; 2]),
 }
@@ -62,6 +64,7 @@ impl<'a> Solid<'a> {
             SpatialShape::ConvexHull(hull) => Some(Self::Hull(hull, None)),
             SpatialShape::Cylinder(cylinder) => Some(Self::Rims(*cylinder.ends(), [cylinder.radius(); 2])),
             SpatialShape::Cone(cone) => Some(Self::Rims([cone.base(), cone.tip()], [cone.radius(), 0.0])),
+            SpatialShape::Facet(facet) => Some(Self::Facet(facet)),
             SpatialShape::HalfSpace(_) => None,
         }
     }
@@ -70,6 +73,7 @@ impl<'a> Solid<'a> {
     pub(super) fn reach(&self) -> f64 {
         match self {
             Self::Hull(hull, _) => hull.centre().length() + hull.outer_radius(),
+            Self::Facet(facet) => facet.prism().centre().length() + facet.prism().outer_radius(),
             Self::Segment(ends, radius) => ends[0].length().max(ends[1].length()) + radius,
             Self::Point(centre, radius) => centre.length() + radius,
             Self::Rims(ends, radii) => ends[0].length().max(ends[1].length()) + radii[0],

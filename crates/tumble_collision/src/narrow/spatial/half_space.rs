@@ -27,6 +27,8 @@ pub(super) fn collide(pair: &Pair, plane: &HalfSpace, solid: &Solid) -> SpatialM
         Solid::Hull(hull, _) => (lowest_face(hull, normal, at), 0.0),
         Solid::Segment(ends, radius) => (Cut::from_slice(&[at(ends[0], 0), at(ends[1], 1)]), radius),
         Solid::Point(centre, radius) => (Cut::from_slice(&[at(centre, 0)]), radius),
+        // Both are ground.
+        Solid::Facet(_) => return SpatialManifold::EMPTY,
         Solid::Rims(ends, radii) => (places_on_rims(ends, radii, normal, pair.preference(), at), 0.0),
     };
     cut.retain(|point| point.height - radius <= pair.query.margin);
