@@ -233,9 +233,10 @@ impl<V: Vector, const N: usize, M: Memory> Manifold<V, N, M> {
 }
 
 impl SpatialManifold {
-    /// The same contact with a and b in each other's place, without memory.
+    /// The same contact with a and b in each other's place. What is remembered is told in the order in which the pair was looked at,
+    /// and stays.
     pub(crate) fn flipped(&self) -> Self {
-        let mut flipped = Self::along(-self.normal);
+        let mut flipped = Self::along(-self.normal).remembering(self.memory);
         for point in self.points() {
             flipped.insert(ContactPoint { feature: point.feature.flipped(), ..*point });
         }

@@ -131,9 +131,9 @@ proptest! {
     }
 }
 
-/// Hours are not needed: some microseconds a pair, most of them the oracle's.
+/// Takes minutes, most of them the oracles'.
 #[test]
-#[ignore = "millions of pairs: run with --release --ignored"]
+#[ignore = "minutes: run with --ignored, and PAIRS for another number of pairs"]
 fn millions_of_random_pairs_agree_with_the_oracle() {
     let count: u32 = std::env::var("PAIRS").ok().and_then(|text| text.parse().ok()).unwrap_or(2_000_000);
     let mut noise = Noise(11);
