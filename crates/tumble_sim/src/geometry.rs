@@ -1,17 +1,19 @@
 //! What the simulation asks of shapes: one trait over the dimension, so that everything above it is written once.
 
+mod planar;
+mod spatial;
+
 use std::fmt::Debug;
 
-use glam::DVec2;
-use tumble_collision::{ContactPoint, OrientedBox, PlanarManifold, PlanarQuery, Volume, collide as collide_planar};
-use tumble_math::{Planar, PlanarRotation, Pose, Rotation};
-use tumble_shape::{MassDim, MassProperties, PlanarShape};
+use tumble_collision::{ContactPoint, Volume};
+use tumble_math::Pose;
+use tumble_shape::{MassDim, MassProperties};
 use tumble_solver::SolverBody;
-use tumble_solver::joint::{JointEnds, JointError, JointRow, distance, fixed, prismatic, revolute};
+use tumble_solver::joint::{JointEnds, JointError, JointRow};
 
 use crate::body::InDim;
 use crate::engine::Engine;
-use crate::joint::{JointEntry, JointKind};
+use crate::joint::JointEntry;
 use crate::part::Amount;
 
 /// A shape and where its body is.
@@ -103,98 +105,4 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
 
     /// What makes and runs a simulation of this dimension: see [`Engine`].
     fn engine() -> &'static Engine<Self>;
-}
-
-impl Geometry for Planar {
-    type Shape = PlanarShape;
-    type OrientedBox = OrientedBox;
-    type Manifold = PlanarManifold;
-    type PerPoint<T: Copy + Debug + Default + Send + Sync + 'static> = [T; 2];
-
-    fn mass_properties(shape: &PlanarShape, amount: Amount) -> Option<MassProperties<Self>> {
-        match amount {
-            Amount::Density(density) => shape.mass_properties(density),
-            Amount::Mass(mass) => shape.mass_properties_of_mass(mass),
-        }
-    }
-
-    fn translated(shape: &PlanarShape, by: DVec2) -> PlanarShape {
-        shape.translated(by)
-    }
-
-    fn volume(shape: &PlanarShape, pose: &Pose<Self>) -> Volume<DVec2> {
-        Volume::of_planar(shape, pose)
-    }
-
-    fn oriented_box(shape: &PlanarShape, pose: &Pose<Self>, margin: f64) -> Option<OrientedBox> {
-        OrientedBox::around(shape, pose, margin)
-    }
-
-    #[inline]
-    fn boxes_overlap(one: &OrientedBox, other: &OrientedBox) -> bool {
-        one.overlaps(other)
-    }
-
-    fn extent(shape: &PlanarShape) -> Option<f64> {
-        shape.extent_about(DVec2::ZERO)
-    }
-
-    fn rod_ends(shape: &PlanarShape) -> Option<[DVec2; 2]> {
-        match shape {
-            PlanarShape::Rod(rod) => Some(*rod.ends()),
-            _ => None,
-        }
-    }
-
-    fn rounding(shape: &PlanarShape) -> f64 {
-        match shape {
-            PlanarShape::Rod(rod) => rod.radius(),
-            PlanarShape::Disc(disc) => disc.radius(),
-            _ => 0.0,
-        }
-    }
-
-    fn collide(a: Posed<'_, Self>, b: Posed<'_, Self>, query: &ContactQuery<'_, Self>) -> PlanarManifold {
-        let query = PlanarQuery {
-            margin: query.margin,
-            flush_tolerance: query.flush_tolerance,
-            previous: Some(query.previous).filter(|previous| !previous.is_empty()),
-        };
-        collide_planar(a.shape, a.pose, b.shape, b.pose, &query)
-    }
-
-    fn points(manifold: &PlanarManifold) -> &[ContactPoint<DVec2>] {
-        manifold.points()
-    }
-
-    fn normal(manifold: &PlanarManifold) -> DVec2 {
-        manifold.normal
-    }
-
-    fn turn_between(a: &PlanarRotation, b: &PlanarRotation) -> f64 {
-        b.angle() - a.angle()
-    }
-
-    fn push_joint_rows(
-        joint: &JointEntry<Self>,
-        ends: &JointEnds<Self>,
-        rotations: [&PlanarRotation; 2],
-        bodies: &[SolverBody<Self>],
-        rows: &mut Vec<JointRow<Self>>,
-    ) -> Result<(), JointError> {
-        let [a, b] = rotations;
-        let turned = || Self::turn_between(a, b) - joint.turned;
-        match joint.kind {
-            JointKind::Revolute => revolute::push_rows(ends, bodies, rows),
-            JointKind::Distance { length } => distance::push_rows(ends, length, bodies, rows)?,
-            JointKind::Fixed => fixed::push_rows(ends, turned(), bodies, rows),
-            JointKind::Prismatic { axis } => prismatic::push_rows(ends, a.rotate(axis), turned(), bodies, rows)?,
-        }
-        Ok(())
-    }
-
-    fn engine() -> &'static Engine<Self> {
-        static PLANAR: Engine<Planar> = Engine::new();
-        &PLANAR
-    }
 }

@@ -6,6 +6,8 @@ use bevy_ecs::name::Name;
 use bevy_ecs::prelude::*;
 
 use super::{Joint, JointKind};
+use tumble_math::Vector;
+
 use crate::body::{BodyTable, Orientation};
 use crate::error::BodyError;
 use crate::force::Anchor;
@@ -91,6 +93,9 @@ pub(crate) fn prepare_joints<D: Geometry>(world: &mut World) -> Result<(), BodyE
         if bodies[0] > bodies[1] && matches!(kind, JointKind::Revolute | JointKind::Distance { .. }) {
             bodies.reverse();
             anchors.reverse();
+        }
+        if D::Vector::AXES > 2 && matches!(kind, JointKind::Fixed | JointKind::Prismatic { .. }) {
+            return Err(BodyError::JointNotInSpace { joint: name });
         }
         if let JointKind::Prismatic { axis } = &mut kind {
             let length = tumble_math::Linear::length(*axis);
