@@ -192,7 +192,8 @@
 //! One-by-one impulses answer the simultaneous impacts of one body in an order, and the order shows: a rod that lands flat on both ends with
 //! ε < 1 leaves with a little spin (example 08). Penalty contact sinks and creeps. A body that moves further in one step than
 //! [contacts are made beforehand](sim::Settings::speculative_limit) may pass through thin things, and is [reported](sim::Notices). Newton's restitution with
-//! friction can create energy in rare configurations. There are no joints yet, and no space: today's shapes are planar.
+//! friction can create energy in rare configurations. In space there are no scene files, recordings and joints that hold
+//! directions yet.
 //!
 //! ```
 //! use tumble::prelude::*;

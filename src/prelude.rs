@@ -2,9 +2,9 @@
 
 pub use bevy_ecs::name::Name;
 pub use bevy_ecs::prelude::{Component, Entity, Query, Res, ResMut, Resource, With, Without};
-pub use glam::{DVec2, dvec2};
+pub use glam::{DVec2, DVec3, dvec2, dvec3};
 
-pub use tumble_math::{Planar, PlanarRotation, Spatial};
+pub use tumble_math::{Planar, PlanarRotation, Rotation, Spatial, SpatialRotation};
 pub use tumble_record::{
     Channel, Completeness, Fingerprint, OutputFolder, Record, Recording, Summary, plot::Plot, write_run,
 };
@@ -12,7 +12,9 @@ pub use tumble_scene::expect::{Status, Verdict};
 pub use tumble_scene::format::{Expectation, ScalarExpectation, Scene, VectorExpectation};
 pub use tumble_scene::shipped::Shipped;
 pub use tumble_scene::{Check, FromScene, ToScene};
-pub use tumble_shape::{ConvexPolygon, Disc, HalfPlane, PlanarShape, Rod};
+pub use tumble_shape::{
+    Capsule, ConvexHull, ConvexPolygon, Cuboid, Disc, HalfPlane, HalfSpace, PlanarShape, Rod, SpatialRod, SpatialShape, Sphere,
+};
 pub use tumble_sim::{
     Amount, Anchor, AngularVelocity, AppliedForce, Axes, BodyId, BodyKind, CentreOverride, Clock, ContactModel, Course,
     Force, GravityScale, Groups, InertiaOverride, Integrator, Joint, JointKind, Keyframe, Keyframes, Ledger,
