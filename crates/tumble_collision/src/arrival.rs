@@ -52,7 +52,7 @@ pub fn first_arrival(search: &Search, mut gap_at: impl FnMut(f64) -> Gap) -> Opt
         }
         let careful = gap.separation.max(search.near) / search.fastest;
         let least = if looks < PATIENCE { 0.0 } else { 0.01 * span };
-        if time == search.until || !(careful > 0.0) {
+        if time == search.until || careful <= 0.0 || careful.is_nan() {
             break;
         }
         time = (time + careful.max(least)).min(search.until);
