@@ -55,6 +55,7 @@ mod sweep;
 
 use tumble_math::{Dim, Linear};
 
+pub(crate) use self::pivot::pivots_before_giving_up;
 use self::problem::Problem;
 use crate::island::Islands;
 use crate::joint::Joints;

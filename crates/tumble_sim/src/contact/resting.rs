@@ -157,13 +157,16 @@ impl<D: Geometry> RestingModel<D> {
         self.gaps.clear();
         self.slips.clear();
         for (i, (row, source)) in problem.rows.iter().zip(&problem.sources).take(problem.touching).enumerate() {
-            // A gap that opens faster than gravity could make up for within the step is no rest.
-            let parting = row.separating_speed(&problem.bodies) > settings.rest_speed(row.normal());
             let Ok((_, pair, manifold, _)) = pairs.get(source.entity) else { continue };
-            if parting {
+            let gap = gap(row, pair, manifold, source.point, colliders);
+            // A gap that opens faster than gravity could make up for within the step is no rest, unless the bodies turned that far in the
+            // last one: their velocities are tangents.
+            let turning = 1.5 * gap.drift(row, &problem.bodies)[0].abs() * settings.dt;
+            let slow = settings.rest_speed(row.normal()) + turning + settings.colliding_above();
+            if row.separating_speed(&problem.bodies) > slow {
                 continue;
             }
-            self.gaps.push(gap(row, pair, manifold, source.point, colliders));
+            self.gaps.push(gap);
             let slip = tangential(row.relative_velocity(&problem.bodies));
             self.slips.push(if slip.length() > settings.touch_tolerance() { slip } else { D::Vector::ZERO });
             self.rows.push(ContactRow { impulse: D::Vector::ZERO, ..*row });

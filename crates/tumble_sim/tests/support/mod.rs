@@ -7,8 +7,9 @@ use glam::{DVec2, dvec2};
 use tumble_math::{Planar, PlanarRotation, trig};
 use tumble_shape::{ConvexPolygon, Disc, HalfPlane, PlanarShape, Rod};
 use tumble_sim::{
-    Amount, AngularVelocity, BodyId, BodyKind, BodyTable, BodyView, ContactManifold, ContactMemory, ContactPair,
-    Geometry, InertiaOverride, LinearVelocity, Orientation, Part, Position, Settings, Simulation,
+    Amount, AngularVelocity, BodyId, BodyKind, BodyTable, BodyView, ContactManifold, ContactMemory, ContactModel,
+    ContactPair, Geometry, InertiaOverride, LinearVelocity, MaterialId, Orientation, Part, Position, Settings,
+    Simulation,
 };
 use tumble_solver::Surface;
 
@@ -45,6 +46,32 @@ pub fn weightless(dt: f64) -> Settings {
 /// Unit vector at an angle [rad].
 pub fn direction(angle: f64) -> DVec2 {
     dvec2(trig::cos(angle), trig::sin(angle))
+}
+
+/// Settings under a contact model.
+pub fn under(contact: ContactModel, settings: Settings) -> Settings {
+    Settings { contact, ..settings }
+}
+
+/// Settings under each model that keeps contacts rigid. A test that fails shows the last one it was in.
+pub fn rigid(settings: Settings) -> impl Iterator<Item = Settings> {
+    [ContactModel::Impulse, ContactModel::RestingLcp, ContactModel::VelocityLcp].into_iter().map(move |contact| {
+        println!("under {}", contact.word());
+        under(contact, settings)
+    })
+}
+
+/// Settings under the models that solve all contacts together, to round-off.
+pub fn complementarity(settings: Settings) -> impl Iterator<Item = Settings> {
+    rigid(settings).filter(|settings| settings.contact != ContactModel::Impulse)
+}
+
+/// Makes a material that does not bounce, and has this friction against the default one.
+pub fn material(simulation: &mut Simulation, name: &str, friction: f64) -> MaterialId {
+    let standard = simulation.materials_mut().find("default").unwrap();
+    let material = simulation.materials_mut().set(name, rough(friction, friction));
+    simulation.materials_mut().set_pair(material, standard, rough(friction, friction));
+    material
 }
 
 /// A floor at height 0.
@@ -102,15 +129,33 @@ pub fn rod(length: f64, mass: f64) -> OneShape {
     one_shape(Rod::try_new(-end, end, 0.0).unwrap(), mass)
 }
 
+/// A rod with rounded ends, from one point to another.
+pub fn card(from: DVec2, to: DVec2, radius: f64, mass: f64) -> OneShape {
+    one_shape(Rod::try_new(from, to, radius).unwrap(), mass)
+}
+
 /// A box.
 pub fn block(width: f64, height: f64, mass: f64) -> OneShape {
     one_shape(ConvexPolygon::rectangle(DVec2::ZERO, 0.5 * dvec2(width, height), 0.0).unwrap(), mass)
 }
 
+/// A convex polygon of area density 1, where its corners are.
+pub fn polygon(corners: &[DVec2]) -> OneShape {
+    let shape = ConvexPolygon::try_new(corners).unwrap();
+    let mass = shape.mass_properties(1.0).mass;
+    one_shape(shape, mass)
+}
+
 impl OneShape {
-    /// Its centre of mass [m].
+    /// Where the origin of its shape is, which is the centre of mass of rods, discs and boxes [m].
     pub fn at(mut self, x: f64, y: f64) -> Self {
         self.position = dvec2(x, y);
+        self
+    }
+
+    /// Its mass [kg].
+    pub fn mass(mut self, mass: f64) -> Self {
+        self.mass = mass;
         self
     }
 
@@ -211,21 +256,41 @@ pub fn angular_momentum(simulation: &Simulation) -> f64 {
 
 /// Force of body `a` on body `b` in the last step: the impulses of all their contact points over Δt [N].
 pub fn contact_force(simulation: &mut Simulation, a: &str, b: &str) -> DVec2 {
+    contact_forces(simulation, a, b).iter().map(|(_, force)| *force).sum()
+}
+
+/// Where body `a` pushes body `b`, and with what force in the last step, from left to right [m], [N].
+pub fn contact_forces(simulation: &mut Simulation, a: &str, b: &str) -> Vec<(DVec2, DVec2)> {
     let dt = simulation.clock().dt;
     let rank = |name| simulation.world().resource::<BodyTable>().index_of(name).unwrap();
     let (a, b) = (rank(a), rank(b));
-    let mut sum = DVec2::ZERO;
+    let mut forces = Vec::new();
     for_each_contact(simulation, |pair, manifold, memory| {
         let side = match pair.bodies {
             bodies if bodies == [a, b] => 1.0,
             bodies if bodies == [b, a] => -1.0,
             _ => return,
         };
-        for (_, memory) in Planar::points(&manifold.0).iter().zip(&memory.0) {
-            sum += memory.given * side / dt;
-        }
+        let points = Planar::points(&manifold.0).iter().zip(&memory.0);
+        forces.extend(points.map(|(point, memory)| (point.point, memory.given * side / dt)));
     });
-    sum
+    forces.sort_by(|one, other| one.0.x.total_cmp(&other.0.x));
+    forces
+}
+
+/// The farthest that any body gets from its place within a time, or until that is `enough` [m].
+pub fn farthest(simulation: &mut Simulation, seconds: f64, enough: f64) -> f64 {
+    simulation.prepare().unwrap();
+    let all = names(simulation);
+    let places =
+        |simulation: &Simulation| -> Vec<DVec2> { all.iter().map(|name| body(simulation, name).position()).collect() };
+    let (start, end, mut farthest) = (places(simulation), simulation.time() + seconds, 0.0_f64);
+    while simulation.time() < end && farthest < enough {
+        simulation.step().unwrap();
+        let ways = start.iter().zip(places(simulation)).map(|(a, b)| (*a - b).length());
+        farthest = ways.fold(farthest, f64::max);
+    }
+    farthest
 }
 
 /// The deepest overlap of all contact points; negative when none touches [m].

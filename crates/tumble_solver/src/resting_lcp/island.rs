@@ -6,6 +6,7 @@ use tumble_math::{Dim, Linear, Vector};
 use super::RestingStatus;
 use crate::contact::tangential;
 use crate::least_norm::{Freedom, make_smallest};
+use crate::velocity_lcp::pivots_before_giving_up;
 use crate::{Slip, Surface};
 
 /// Islands of up to this many points are looked at from all sides where more than one outcome is possible.
@@ -150,8 +151,10 @@ impl<'a, D: Dim> Stage<'a, D> {
             found = Some((all[0].z.clone(), all.len()));
         }
         if found.is_none() {
-            let pivoted =
-                PrincipalPivoting::default().solve_from(&lcp, &guess).or_else(|_| Lemke::default().solve(&lcp));
+            let max_pivots = Some(pivots_before_giving_up(lcp.dimension()));
+            let pivoted = PrincipalPivoting { max_pivots, ..PrincipalPivoting::default() }
+                .solve_from(&lcp, &guess)
+                .or_else(|_| Lemke { max_pivots, ..Lemke::default() }.solve(&lcp));
             found = pivoted.ok().map(|solution| (solution.z, solution.report.iterations));
         }
         let Some((z, iterations)) = found else { return self.nothing() };

@@ -28,9 +28,10 @@ pub(super) fn pivot<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], w: &Dens
             }
         });
         let lcp = Lcp::new(w.clone(), q.clone()).and_then(|lcp| lcp.with_bounds(bounds.collect())).ok()?;
-        let solution = PrincipalPivoting::default()
+        let max_pivots = Some(pivots_before_giving_up(lcp.dimension()));
+        let solution = PrincipalPivoting { max_pivots, ..PrincipalPivoting::default() }
             .solve_from(&lcp, &guess)
-            .or_else(|_| Lemke::default().solve_from(&lcp, &guess));
+            .or_else(|_| Lemke { max_pivots, ..Lemke::default() }.solve_from(&lcp, &guess));
         let solution = solution.ok()?;
         pivots += solution.report.iterations;
         let mut released = false;
@@ -44,6 +45,11 @@ pub(super) fn pivot<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], w: &Dens
             return Some(pivots);
         }
     }
+}
+
+/// Pivots on an island of so many rows, a few times what one takes that can be solved: another method follows.
+pub(crate) fn pivots_before_giving_up(rows: usize) -> usize {
+    50 + 5 * rows
 }
 
 /// Solves an island by Newton's method on the friction cones; returns the steps, or `None` without a solution.
