@@ -84,7 +84,7 @@
 //! # 4. Joints
 //!
 //! A [`Joint`](sim::Joint) is an entity that holds two bodies, or a body and the world, together: revolute, distance, fixed, prismatic. It holds to
-//! round-off under every model but the penalty model, where it is a spring.
+//! round-off under every model but the penalty model, where it is a spring. Example 12 builds a mechanism of four.
 //!
 //! ```
 //! use tumble::prelude::*;
@@ -192,7 +192,7 @@
 //! One-by-one impulses answer the simultaneous impacts of one body in an order, and the order shows: a rod that lands flat on both ends with
 //! ε < 1 leaves with a little spin (example 08). Penalty contact sinks and creeps. A body that moves further in one step than
 //! [contacts are made beforehand](sim::Settings::speculative_limit) may pass through thin things, and is [reported](sim::Notices). Newton's restitution with
-//! friction can create energy in rare configurations. There are no joints yet, and no space: today's shapes are planar.
+//! friction can create energy in rare configurations. There is no space yet: today's shapes are planar.
 //!
 //! ```
 //! use tumble::prelude::*;
