@@ -84,7 +84,7 @@
 //! # 4. Joints
 //!
 //! A [`Joint`](sim::Joint) is an entity that holds two bodies, or a body and the world, together: revolute, distance, fixed, prismatic. It holds to
-//! round-off under every model but the penalty model, where it is a spring.
+//! round-off under every model but the penalty model, where it is a spring. Example 12 builds a mechanism of four.
 //!
 //! ```
 //! use tumble::prelude::*;

@@ -34,6 +34,7 @@ course! {
     scenes_in_code: "../examples/09_scenes_in_code.rs",
     recording_and_plots: "../examples/10_recording_and_plots.rs",
     test_your_scene: "../examples/11_test_your_scene.rs",
+    mechanism: "../examples/12_mechanism.rs",
 }
 
 #[test]

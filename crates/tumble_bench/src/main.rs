@@ -4,6 +4,7 @@
 //! is the fastest of several rounds.
 
 mod measure;
+mod models;
 mod scenes;
 
 use std::process::ExitCode;
@@ -27,6 +28,8 @@ enum Question {
     Spread,
     /// 2000 bodies of three rods settle on a floor: faster than real time?
     Settle,
+    /// Pyramids of boxes under each model that solves its contacts: cost, and growth with contacts.
+    Models,
     /// Bytes per body and per contact pair.
     Memory,
 }
@@ -70,6 +73,9 @@ fn main() -> ExitCode {
         }
         if asked(Question::Settle) {
             settle(&arguments)?;
+        }
+        if asked(Question::Models) {
+            models::models()?;
         }
         if asked(Question::Memory) {
             memory()?;

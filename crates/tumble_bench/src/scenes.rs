@@ -2,7 +2,7 @@
 
 use glam::{DVec2, dvec2};
 use tumble_math::{Linear, Planar, PlanarRotation};
-use tumble_shape::{HalfPlane, Rod};
+use tumble_shape::{ConvexPolygon, HalfPlane, Rod};
 use tumble_sim::{
     Amount, AngularVelocity, BodyKind, ContactManifold, ContactModel, ContactPair, LinearVelocity, Orientation, Part,
     Position, Settings, Simulation,
@@ -72,6 +72,25 @@ pub fn settle(count: usize, contact: ContactModel) -> Simulation {
             let spoke = PlanarRotation::from_angle(f64::from(k) * std::f64::consts::PI / 3.0);
             let half = dvec2(spoke.cos(), spoke.sin()) * 0.5;
             simulation.attach(body, rod(-half, half));
+        }
+    }
+    simulation
+}
+
+/// A pyramid of boxes of 1 m, so many in its lowest row, at rest on a floor; neighbours in a row do not touch.
+pub fn pyramid(rows: u32, settings: Settings) -> Simulation {
+    let mut simulation = Simulation::new(settings);
+    let surface = Surface { static_friction: 0.6, kinetic_friction: 0.5, restitution: 0.0 };
+    simulation.materials_mut().set("default", surface);
+    half_plane(&mut simulation, DVec2::Y, 0.0);
+    let corners = [dvec2(-0.5, -0.5), dvec2(0.5, -0.5), dvec2(0.5, 0.5), dvec2(-0.5, 0.5)];
+    for row in 0..rows {
+        let count = rows - row;
+        for k in 0..count {
+            let x = 1.5 * (f64::from(k) - 0.5 * f64::from(count - 1));
+            let body = simulation.spawn(Position(dvec2(x, f64::from(row) + 0.5)));
+            let square = ConvexPolygon::try_new(corners).expect("a square is convex");
+            simulation.attach(body, Part::new(square, Amount::Mass(1.0)));
         }
     }
     simulation

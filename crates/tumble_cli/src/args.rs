@@ -38,6 +38,8 @@ pub enum Command {
     Test(TestArguments),
     /// Run a scene under several contact models and step sizes, side by side
     Compare(CompareArguments),
+    /// Print how far each contact model is from closed forms, as the table in the README
+    Accuracy,
     /// Print the JSON Schema of the scene format
     Schema,
 }
@@ -116,13 +118,14 @@ pub struct CompareArguments {
     /// A scene file, or the name of a shipped scene (see `tumble scenes`)
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
-    /// Contact models; default: all for which the scene claims something
+    /// Contact models; default: all for which the scene claims something, or simply all if it claims nothing
     #[arg(long, value_name = "MODEL,…", value_delimiter = ',', value_parser = contact_model())]
     pub contact: Vec<ContactModel>,
     /// Time steps [s]; default: the scene's
     #[arg(long, value_name = "S,…", value_delimiter = ',', value_parser = seconds, allow_hyphen_values = true)]
     pub dt: Vec<f64>,
-    /// Measure how far bodies are from where this model has them, with a sixteenth of the smallest step
+    /// Measure how far bodies are from where this model has them, with a sixteenth of the smallest step;
+    /// default: the scene's own model if nothing is expected, else none
     #[arg(long, value_name = "MODEL", value_parser = contact_model())]
     pub reference: Option<ContactModel>,
     /// The quantity that is drawn for all runs, such as `y:ball`; default: total
@@ -161,7 +164,8 @@ fn after_compare_help() -> String {
         "Columns: expectations that hold, of those claimed for the model; the largest part of its tolerance that one of them uses;\n\
          energy gained or lost, of the energy in play; deepest overlap; largest residual of the contact solver, in its own measure;\n\
          drift of the bodies that the scene expects at rest, over the last tenth of the run; time per step, recording included.\n\n\
-         Files: compare.csv (the table) and compare.svg (the curves). A failed expectation does not fail the comparison.\n\n{}\n\n{EXIT_CODES}",
+         Files: compare.csv (the table) and compare.svg (the curves), whole or not at all. A failed expectation does not fail the\n\
+         comparison; of a run that fails the table says so, and the exit code is 3 only if no run came to its end.\n\n{}\n\n{EXIT_CODES}",
         channels()
     )
 }

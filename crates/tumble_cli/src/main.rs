@@ -1,11 +1,12 @@
 //! `tumble`: runs, checks and tests scenes of rigid bodies.
 //!
 //! - [`args`]: the command line; [`source`]: from its words to scenes;
-//! - [`run`], [`check`], [`test`], [`compare`], [`scenes`]: one file or folder per command;
-//! - [`simulate`]: a scene from its first step to its last, or as far as it gets; [`interrupt`]: Ctrl-C;
+//! - [`run`], [`check`], [`test`], [`compare`], [`accuracy`], [`scenes`]: one file or folder per command;
+//! - [`simulate`]: a scene from its first step to its last, or as far as it gets; [`interrupt`]: Ctrl-C; [`parallel`]: several at a time;
 //! - [`report`], [`figure`]: a run in words; [`page`]: standard output, which may be closed or full;
 //! - [`failure`]: what can go wrong, and its exit code.
 
+mod accuracy;
 mod args;
 mod check;
 mod compare;
@@ -13,6 +14,7 @@ mod failure;
 mod figure;
 mod interrupt;
 mod page;
+mod parallel;
 mod report;
 mod run;
 mod scenes;
@@ -43,6 +45,7 @@ fn command(command: Command, page: &mut Page) -> Result<Exit, Failure> {
         Command::Check(arguments) => check::check(&arguments, page),
         Command::Test(arguments) => test::test(&arguments, page),
         Command::Compare(arguments) => compare::compare(&arguments, page),
+        Command::Accuracy => accuracy::accuracy(page),
         Command::Schema => {
             page.line(tumble_scene::schema());
             Ok(Exit::Fine)

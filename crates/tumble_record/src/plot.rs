@@ -9,8 +9,8 @@ use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
-use plotters::element::{PathElement, Rectangle, Text};
-use plotters::series::LineSeries;
+use plotters::element::{DashedPathElement, PathElement, Text};
+use plotters::series::{DashedLineSeries, LineSeries};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, IntoTextStyle, RGBColor, ShapeStyle, TextStyle, WHITE};
 
@@ -27,31 +27,48 @@ pub struct Plot {
     pub value_label: String,
     /// The curves, each with its label for the legend.
     pub series: Vec<Series>,
-    /// How wide they are drawn.
+    /// How they are drawn.
     pub strokes: Strokes,
 }
 
-/// How wide curves are drawn.
+/// How curves are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strokes {
-    /// All alike.
+    /// All solid.
     #[default]
-    Even,
-    /// Wider ones below, so that of curves that coincide each shows as a rim.
-    Nested,
+    Solid,
+    /// Each with dashes of its own, so that of curves that coincide each shows through the gaps of those above it.
+    Dashed,
 }
 
 impl Strokes {
-    /// Width of a curve of so many [px].
-    fn width(self, index: usize, count: usize) -> u32 {
-        const WIDTH: u32 = 2;
-        match self {
-            Self::Even => WIDTH,
-            Self::Nested => WIDTH + 2 * (count - 1 - index).min(4) as u32,
-        }
+    /// Lengths of a dash and of the gap after it for one of the curves [px]; none where it is solid.
+    fn dashes(self, index: usize) -> Option<(u32, u32)> {
+        (self == Self::Dashed).then(|| DASHES[index % DASHES.len()]).flatten()
     }
 }
 
+/// Dashes of the curves in turn: the later, the less of the earlier ones do they hide [px].
+const DASHES: [Option<(u32, u32)>; 12] = [
+    None,
+    Some((16, 12)),
+    Some((8, 10)),
+    Some((3, 8)),
+    Some((20, 20)),
+    Some((6, 14)),
+    Some((12, 20)),
+    Some((3, 14)),
+    Some((16, 26)),
+    Some((8, 20)),
+    Some((5, 18)),
+    Some((3, 20)),
+];
+/// Length of dashed curves beyond which dashes would only fill the file; they are solid then [px].
+const LONGEST_DASHED: f64 = 20_000.0;
+/// Width of a curve [px].
+const CURVE_WIDTH: u32 = 2;
+/// Length of the piece of a curve in the legend [px].
+const LEGEND_PIECE: i32 = 52;
 /// Size of the picture [px].
 const SIZE: (u32, u32) = (960, 540);
 /// Drawing units per pixel: the backend rounds to whole units, and curves of whole pixels would look jagged.
@@ -143,13 +160,20 @@ impl Plot {
             .build_cartesian_2d(times.0..times.1, values.0..values.1)?;
         self.draw_axes(&mut chart, times, values)?;
         for (index, series) in self.series.iter().enumerate() {
-            let width = self.strokes.width(index, self.series.len());
-            let style = ShapeStyle::from(&COLORS[index % COLORS.len()]).stroke_width(fine(width));
+            let style = self.style(index);
             for stretch in finite_stretches(series) {
                 // A lone point has no line; a short dash keeps it visible.
                 let width = if stretch.len() == 1 { (times.1 - times.0) * 0.004 } else { 0.0 };
                 let dash = stretch.last().map(|&(time, value)| (time + width, value)).filter(|_| width > 0.0);
-                chart.draw_series(LineSeries::new(stretch.into_iter().chain(dash), style))?;
+                let points: Vec<(f64, f64)> = stretch.into_iter().chain(dash).collect();
+                match self.strokes.dashes(index).filter(|_| drawn_length(&chart, &points) < LONGEST_DASHED) {
+                    Some((dash, gap)) => {
+                        chart.draw_series(DashedLineSeries::new(points, fine(dash), fine(gap), style))?;
+                    }
+                    None => {
+                        chart.draw_series(LineSeries::new(points, style))?;
+                    }
+                }
             }
         }
         if legend_width > 0 {
@@ -190,7 +214,11 @@ impl Plot {
     fn legend_width(&self) -> u32 {
         let longest =
             self.series.iter().map(|series| clean(&series.label, LABEL_LETTERS).chars().count()).max().unwrap_or(0);
-        44 + 8 * longest as u32 + 12
+        LEGEND_PIECE as u32 + 20 + 8 * longest as u32 + 12
+    }
+
+    fn style(&self, index: usize) -> ShapeStyle {
+        ShapeStyle::from(&COLORS[index % COLORS.len()]).stroke_width(fine(CURVE_WIDTH))
     }
 
     fn draw_legend(&self, legend: &Page<'_>) -> DrawResult {
@@ -198,11 +226,25 @@ impl Plot {
             (FONT, fine(15)).into_text_style(legend).color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
         for (index, series) in self.series.iter().enumerate() {
             let y = 66 + 24 * index as i32;
-            legend.draw(&Rectangle::new([point(6, y - 2), point(30, y + 2)], COLORS[index % COLORS.len()].filled()))?;
-            legend.draw(&Text::new(clean(&series.label, LABEL_LETTERS), point(38, y), style.clone()))?;
+            let piece = [point(6, y), point(6 + LEGEND_PIECE, y)];
+            let thick = self.style(index).stroke_width(fine(CURVE_WIDTH + 1));
+            match self.strokes.dashes(index) {
+                Some((dash, gap)) => legend.draw(&DashedPathElement::new(piece, fine(dash), fine(gap), thick))?,
+                None => legend.draw(&PathElement::new(piece, thick))?,
+            }
+            let label = point(14 + LEGEND_PIECE, y);
+            legend.draw(&Text::new(clean(&series.label, LABEL_LETTERS), label, style.clone()))?;
         }
         Ok(())
     }
+}
+
+/// Length of a curve in the picture [px].
+fn drawn_length(chart: &Chart<'_>, points: &[(f64, f64)]) -> f64 {
+    let places = points.iter().map(|point| chart.backend_coord(point));
+    let steps = places.clone().zip(places.skip(1));
+    let length = |from: i32, to: i32| (f64::from(to) - f64::from(from)).abs();
+    steps.map(|(from, to)| length(from.0, to.0) + length(from.1, to.1)).sum::<f64>() / f64::from(FINE)
 }
 
 /// Converts a length from pixels to drawing units.

@@ -96,9 +96,9 @@ pub struct AuditCsvRow {
     pub tangent_violation: f64,
     /// Work of gravity [J].
     pub work_gravity: f64,
-    /// Work of springs, their dampers included [J].
+    /// Work of springs, without their dampers [J].
     pub work_springs: f64,
-    /// Work of drag, applied forces and the user's forces [J].
+    /// Work of drag, dampers of springs, applied forces and the user's forces [J].
     pub work_user: f64,
     /// Work of friction [J].
     pub work_friction: f64,

@@ -31,7 +31,7 @@ use crate::{Clock, Settings};
 pub struct Ledger {
     /// Largest speed at which a contact that touches still closes after the step [m/s].
     pub normal_violation: f64,
-    /// Largest slip of a point that sticks after the step [m/s].
+    /// Largest slip of a point that sticks after the step [m/s]; under the penalty model up to the slip speed, at which friction is full.
     pub tangent_violation: f64,
     /// Work of gravity [J].
     pub work_gravity: f64,
@@ -357,6 +357,7 @@ pub(crate) fn after_forces<D: Geometry>(clock: Res<Clock>, mut books: ResMut<Boo
 
 /// Looks at how contacts keep their conditions, once velocities are filtered.
 pub(crate) fn look_at_contacts<D: Geometry>(
+    settings: Res<Settings<D>>,
     mut books: ResMut<Books<D>>,
     mut problem: ResMut<ContactProblem<D>>,
     table: Res<BodyTable>,
@@ -364,17 +365,22 @@ pub(crate) fn look_at_contacts<D: Geometry>(
 ) {
     let ledger = &mut books.ledger;
     let (rows, held) = problem.gathered(&bodies, table.entries().len());
+    let still = settings.touch_tolerance();
     for row in rows {
         let velocity = row.relative_velocity(held);
         ledger.normal_violation = ledger.normal_violation.max(-velocity[0] - row.allowance);
-        if row.impulse[0] > 0.0 {
-            match row.slip {
-                Slip::Sticking => {
-                    ledger.sticking += 1;
-                    ledger.tangent_violation = ledger.tangent_violation.max(tangential(velocity).length());
-                }
-                Slip::Sliding => ledger.sliding += 1,
-            }
+        if row.impulse[0] <= 0.0 {
+            continue;
+        }
+        // A point that stuck so far and slips though it pushes with all of μ_s breaks away in this step.
+        let slip = tangential(velocity).length();
+        let bound = row.surface.static_friction * row.impulse[0];
+        let breaks_away = slip > still && tangential(row.impulse).length() >= bound * (1.0 - 1e-9);
+        if row.slip == Slip::Sliding || breaks_away {
+            ledger.sliding += 1;
+        } else {
+            ledger.sticking += 1;
+            ledger.tangent_violation = ledger.tangent_violation.max(slip);
         }
     }
 }

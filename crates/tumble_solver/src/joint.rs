@@ -19,7 +19,6 @@ pub mod distance;
 pub mod fixed;
 pub mod prismatic;
 pub mod revolute;
-mod skyline;
 
 pub use block::{JointBlock, JointReport};
 

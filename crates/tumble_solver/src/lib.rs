@@ -25,6 +25,7 @@ pub mod penalty;
 pub mod position;
 mod report;
 pub mod resting_lcp;
+mod skyline;
 pub mod velocity_lcp;
 
 pub use body::SolverBody;

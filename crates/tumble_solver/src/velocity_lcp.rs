@@ -48,6 +48,7 @@
 //! Good at: simultaneous impacts, rest, exactness. Bad at: thousands of contacts in one pile. Choose it for correct answers to coupled
 //! contacts.
 
+mod bodywise;
 mod pivot;
 mod problem;
 mod solve;
@@ -193,8 +194,8 @@ impl<D: Dim> VelocityLcp<D> {
         let mut report = VelocityReport { expansion: 1.0, ..VelocityReport::default() };
         for island in 0..self.islands.len() {
             if self.take(island, rows.len()) {
-                let surfaces = |i: usize| rows[i].surface;
-                solve::solve_in_two_stages(&mut self.problem, &self.contacts, surfaces, settings, &mut report);
+                let world = World { rows, bodies, are_held: joints.is_some() };
+                solve::solve_in_two_stages(&mut self.problem, &self.contacts, &world, settings, &mut report);
             }
         }
         self.islands.idle().iter().filter(|i| (**i as usize) < rows.len()).for_each(|i| {
@@ -239,10 +240,14 @@ impl<D: Dim> VelocityLcp<D> {
                     for i in self.contacts.iter().map(|i| *i as usize) {
                         self.problem.q[i][0] -= rebounds[i].speed;
                     }
-                    self.solve(rows, settings, &mut report);
+                    let world = World { rows, bodies, are_held: joints.is_some() };
+                    solve::solve_in_two_stages(&mut self.problem, &self.contacts, &world, settings, &mut report);
                     self.contacts.iter().map(|i| *i as usize).for_each(|i| given[i] = self.problem.impulses[i]);
                 }
-                Restitution::Poisson => self.compress_and_expand(rows, rebounds, given, settings, &mut report),
+                Restitution::Poisson => {
+                    let world = World { rows, bodies, are_held: joints.is_some() };
+                    self.compress_and_expand(&world, rebounds, given, settings, &mut report);
+                }
             }
         }
         for (row, impulse) in rows.iter().zip(given.iter()) {
@@ -259,13 +264,13 @@ impl<D: Dim> VelocityLcp<D> {
     /// Both phases of Poisson's law for the island at hand.
     fn compress_and_expand(
         &mut self,
-        rows: &[ContactRow<D>],
+        world: &World<'_, D>,
         rebounds: &[Rebound],
         given: &mut [D::Vector],
         settings: &VelocitySettings,
         report: &mut VelocityReport,
     ) {
-        self.solve(rows, settings, report);
+        solve::solve_in_two_stages(&mut self.problem, &self.contacts, world, settings, report);
         let indices = || self.contacts.iter().map(|i| *i as usize);
         let problem = &mut self.problem;
         let compressed: Vec<D::Vector> = indices().map(|i| problem.velocity(i)).collect();
@@ -284,7 +289,7 @@ impl<D: Dim> VelocityLcp<D> {
         }
         // The islands and contacts were counted by the first phase.
         let mut second = VelocityReport::default();
-        solve::solve_in_two_stages(problem, &self.contacts, |i| rows[i].surface, settings, &mut second);
+        solve::solve_in_two_stages(problem, &self.contacts, world, settings, &mut second);
         report.iterations += second.iterations;
         report.residual = report.residual.max(second.residual);
         report.fell_back += second.fell_back;
@@ -303,11 +308,6 @@ impl<D: Dim> VelocityLcp<D> {
             given[i] += self.problem.impulses[i] * part;
             self.problem.held[i] = 0.0;
         }
-    }
-
-    /// Solves the island at hand, all its contacts sticking at first.
-    fn solve(&mut self, rows: &[ContactRow<D>], settings: &VelocitySettings, report: &mut VelocityReport) {
-        solve::solve_in_two_stages(&mut self.problem, &self.contacts, |i| rows[i].surface, settings, report);
     }
 
     /// Stops the joints and reads velocities, W and islands.
@@ -343,6 +343,14 @@ impl<D: Dim> VelocityLcp<D> {
         self.contacts.extend(self.islands.links(island).iter().filter(|i| (**i as usize) < contacts));
         !self.contacts.is_empty()
     }
+}
+
+/// What a problem was made of.
+struct World<'a, D: Dim> {
+    rows: &'a [ContactRow<D>],
+    bodies: &'a [SolverBody<D>],
+    /// Whether joints hold bodies, so that these yield otherwise than alone.
+    are_held: bool,
 }
 
 /// The largest θ ∈ [0, 1] with `energy` + θ `work` + ½ θ² `yielding` ≤ 0, where `energy` ≤ 0 ≤ `yielding`.

@@ -37,7 +37,7 @@ pub fn compare(arguments: &CompareArguments, page: &mut Page) -> Result<Exit, Fa
     if !loaded.warnings.is_empty() {
         tell(loaded.warnings.render(stderr_color()));
     }
-    let cases = cases(arguments, &loaded)?;
+    let Chosen { cases, left_out } = choose(arguments, &loaded)?;
     let name = source.stem().to_string_lossy().into_owned();
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new(OUT).join(&name).join("compare"));
     let folder = OutputFolder::new(folder);
@@ -46,12 +46,20 @@ pub fn compare(arguments: &CompareArguments, page: &mut Page) -> Result<Exit, Fa
         cases.iter().map(|case| case.prepare(&source, &loaded)).collect::<Result<Vec<Prepared>, Failure>>()?;
     let channel = channel(arguments, &mut prepared)?;
     let finest = cases.iter().map(|case| case.dt).fold(f64::INFINITY, f64::min);
-    let reference = arguments.reference.map(|contact| Case { contact, dt: finest / f64::from(REFERENCE_STEPS) });
+    // Where nothing is expected, the scene's own model with small steps is the measure.
+    let is_claimed = |case: &Case| loaded.scene.expect.iter().any(|expected| expected.is_claimed_under(case.contact));
+    let fallback = (!cases.iter().any(is_claimed)).then_some(loaded.scene.contact);
+    let measure = arguments.reference.or(fallback);
+    let reference = measure.map(|contact| Case { contact, dt: finest / f64::from(REFERENCE_STEPS) });
     let reference = reference.map(|case| Reference::prepare(&case, &source)).transpose()?;
     folder.prepare(Completeness::Whole).map(drop)?;
     interrupt::listen();
 
-    let reference = reference.map(Reference::run).transpose()?;
+    let (reference, lost) = match reference.map(Reference::run).transpose()? {
+        Some(Ok(reference)) => (Some(reference), None),
+        Some(Err(error)) => (None, Some(error)),
+        None => (None, None),
+    };
     let several_steps = cases.iter().any(|case| case.dt != cases[0].dt);
     let (mut rows, mut curves, mut value_label) = (Vec::new(), Vec::new(), String::new());
     for (case, mut prepared) in cases.iter().zip(prepared) {
@@ -68,10 +76,22 @@ pub fn compare(arguments: &CompareArguments, page: &mut Page) -> Result<Exit, Fa
 
     page.line(format!("{name}: {} of {} s", counted(rows.len() as u64, "run"), loaded.scene.duration));
     page.line("");
-    words::table(&rows, arguments.reference).iter().for_each(|line| page.line(line));
+    words::table(&rows, measure).iter().for_each(|line| page.line(line));
     page.line("");
     for row in rows.iter().filter(|row| row.failure.is_some()) {
         page.line(format!("{}: {}", row.label(several_steps), row.failure.as_deref().unwrap_or_default()));
+    }
+    if let Some(contact) = measure {
+        let why = if arguments.reference.is_none() { "nothing is expected, so " } else { "" };
+        let what = format!("{} with steps of {} s", contact.word(), finest / f64::from(REFERENCE_STEPS));
+        page.line(match lost {
+            Some(error) => format!("the reference, {what}, failed: {error}"),
+            None => format!("{why}errors are distances from {what}"),
+        });
+    }
+    if !left_out.is_empty() {
+        let words: Vec<&str> = left_out.iter().map(|model| model.word()).collect();
+        page.line(format!("left out, because the scene claims nothing for it: {} (see --contact)", words.join(", ")));
     }
     page.line(words::best(&rows, several_steps, words::Promises::of(&loaded.scene)));
     page.line("");
@@ -79,7 +99,7 @@ pub fn compare(arguments: &CompareArguments, page: &mut Page) -> Result<Exit, Fa
         title: format!("{name}  ·  {}", channel.title()),
         value_label,
         series: curves,
-        strokes: Strokes::Nested,
+        strokes: Strokes::Dashed,
     };
     let mut files = folder.prepare(Completeness::Whole)?;
     files.add("compare.csv", |out| words::write_csv(&rows, out))?;
@@ -111,32 +131,44 @@ impl Case {
     }
 
     fn label(&self, with_step: bool) -> String {
-        if with_step { format!("{}, {} s", self.contact.word(), self.dt) } else { self.contact.word().to_owned() }
+        if with_step { format!("{} at {} s", self.contact.word(), self.dt) } else { self.contact.word().to_owned() }
     }
 }
 
-/// Every model with every step size.
-fn cases(arguments: &CompareArguments, loaded: &Loaded) -> Result<Vec<Case>, Failure> {
+/// What is compared.
+struct Chosen {
+    /// Every model with every step size.
+    cases: Vec<Case>,
+    /// Models that nobody asked for and that the scene claims nothing for.
+    left_out: Vec<ContactModel>,
+}
+
+fn choose(arguments: &CompareArguments, loaded: &Loaded) -> Result<Chosen, Failure> {
+    refuse_twice("--contact", &arguments.contact, |model| model.word().to_owned())?;
+    refuse_twice("--dt", &arguments.dt, f64::to_string)?;
     let scene = &loaded.scene;
     let is_meant = |model: &ContactModel| {
         scene.expect.is_empty() || scene.expect.iter().any(|expectation| expectation.is_claimed_under(*model))
     };
-    let mut models = arguments.contact.clone();
-    if models.is_empty() {
-        models = ContactModel::ALL.into_iter().filter(is_meant).collect();
-    }
+    let (models, left_out): (Vec<ContactModel>, Vec<ContactModel>) = if arguments.contact.is_empty() {
+        ContactModel::ALL.into_iter().partition(is_meant)
+    } else {
+        (arguments.contact.clone(), Vec::new())
+    };
     let steps = if arguments.dt.is_empty() { vec![scene.dt] } else { arguments.dt.clone() };
-    let mut cases: Vec<Case> = Vec::new();
-    for case in models.iter().flat_map(|&contact| steps.iter().map(move |&dt| Case { contact, dt })) {
-        if !cases.contains(&case) {
-            cases.push(case);
-        }
-    }
+    let cases: Vec<Case> =
+        models.iter().flat_map(|&contact| steps.iter().map(move |&dt| Case { contact, dt })).collect();
     if cases.len() > MOST_CURVES {
         let message = format!("{} runs cannot be told apart in one plot: at most {MOST_CURVES}", cases.len());
         return Err(Failure::Arguments(message));
     }
-    Ok(cases)
+    Ok(Chosen { cases, left_out })
+}
+
+/// Refuses a list with a value that stands in it twice.
+fn refuse_twice<T: PartialEq>(flag: &str, values: &[T], word: impl Fn(&T) -> String) -> Result<(), Failure> {
+    let twice = values.iter().enumerate().find(|(index, value)| values[..*index].contains(value));
+    twice.map_or(Ok(()), |(_, value)| Err(Failure::Arguments(format!("{flag}: {} is given twice", word(value)))))
 }
 
 /// The channel of the plot, checked; the total energy if none was asked for.

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 use tumble_record::{BodyKind, BodyState, Recording, Sample};
+use tumble_sim::StepError;
 
 use super::figures::worse;
 use super::{Case, REFERENCE_STEPS, finished};
@@ -22,13 +23,13 @@ impl Reference {
         Prepared::sampled(source, source.load()?, &overrides, Some(REFERENCE_STEPS), |_| Vec::new())
     }
 
-    /// Takes the reference run.
-    pub fn run(mut prepared: Prepared) -> Result<Self, Failure> {
+    /// Takes the reference run, which may fail like any other.
+    pub fn run(mut prepared: Prepared) -> Result<Result<Self, StepError>, Failure> {
         let run = finished(prepared.run(Progress::Shown))?;
-        match run.ending {
-            Ending::Failed(error) => Err(Failure::Run(format!("the reference run failed: {error}"))),
-            _ => Ok(Self { recording: run.recording }),
-        }
+        Ok(match run.ending {
+            Ending::Failed(error) => Err(error),
+            Ending::Complete | Ending::Interrupted => Ok(Self { recording: run.recording }),
+        })
     }
 
     /// Largest distance of a dynamic body of another run of the same scene from where it is here [m].

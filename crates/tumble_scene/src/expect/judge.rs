@@ -29,6 +29,17 @@ impl Judgement {
 }
 
 impl Outcome {
+    /// How far what was measured is from what is right, in the unit of the outcome; of rest, the drift [m]. None where nothing was measured, or
+    /// no value is given.
+    pub fn error(&self) -> Option<f64> {
+        match (self.expected.as_ref()?, self.measured.as_ref()?) {
+            (Expected::Number { near: Some(near), .. }, Measured::Number(number)) => Some((number - near.is).abs()),
+            (Expected::Vector { is, .. }, Measured::Vector(vector)) => Some((*vector - *is).length()),
+            (Expected::Rest { .. }, Measured::Rest { drift, .. }) => Some(*drift),
+            _ => None,
+        }
+    }
+
     /// How much of its tolerance what was measured uses: 1 at the limit, more if it failed. None where nothing was measured, or no
     /// tolerance is given [1].
     pub fn ratio(&self) -> Option<f64> {

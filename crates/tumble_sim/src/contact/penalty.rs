@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Linear, Matrix};
 use tumble_solver::contact::tangential;
 use tumble_solver::penalty::{self, LectureFloor, SpringDamper};
-use tumble_solver::{ContactRow, SolverBody};
+use tumble_solver::{ContactRow, Slip, SolverBody};
 
 use super::problem::{BodyQuery, ContactProblem, PairQuery, Points};
 use super::{Colliders, ContactPair, Detection};
@@ -44,6 +44,9 @@ pub fn apply_penalty_forces<D: Geometry>(
             row.frame.apply(force) * clock.part();
         push(row, force, &table, &mut forces);
         row.impulse = force * clock.part();
+        // Beyond the slip speed friction falls to its kinetic value; below, it holds what it can.
+        let slip = tangential(row.relative_velocity(&problem.bodies)).length();
+        row.slip = if slip < contact.slip_speed { Slip::Sticking } else { Slip::Sliding };
         if let Some(books) = &mut books {
             books.count_friction(row, force);
         }

@@ -15,8 +15,8 @@
 use tumble_math::{Dim, Linear, Matrix, Vector};
 
 use super::JointRow;
-use super::skyline::Skyline;
 use crate::island::{Islands, can_move};
+use crate::skyline::Skyline;
 use crate::{ContactRow, SolverBody};
 
 /// The factored joints of a scene.

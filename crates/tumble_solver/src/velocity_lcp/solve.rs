@@ -1,13 +1,13 @@
 //! One island solved: which method, what if it fails, and friction in two stages.
 
 use tumble_lcp::Matrix as Dense;
-use tumble_math::{Dim, Linear, Vector};
+use tumble_math::{Dim, Linear, Matrix, Vector};
 
 use super::problem::Problem;
-use super::{VelocityReport, VelocitySettings, VelocitySolver, pivot, sweep};
+use super::{VelocityReport, VelocitySettings, VelocitySolver, World, bodywise, pivot, sweep};
 use crate::contact::tangential;
 use crate::least_norm::{Freedom, make_smallest};
-use crate::{Ending, Slip, Surface};
+use crate::{Ending, Slip};
 
 /// Up to this many rows pivoting is about as quick as Newton's method, and surer.
 const PIVOT_UP_TO_ROWS: usize = 12;
@@ -15,11 +15,17 @@ const PIVOT_UP_TO_ROWS: usize = 12;
 /// Up to this many rows a Newton step, whose cost grows with their cube, is quicker than the sweeps that it saves.
 const NEWTON_UP_TO_ROWS: usize = 120;
 
-/// Up to this many rows it is worth a try where sweeps have not come to rest.
+/// Up to this many rows it is worth a try where nothing else has come to rest.
 const NEWTON_AFTER_SWEEPS_UP_TO_ROWS: usize = 150;
 
 /// A first guess counts as the answer only when it is as exact as an answer, which is far better than the tolerance asks [1].
 const KNOWN_WITHIN: f64 = 1e-4;
+
+/// The same where the velocities of bodies are solved for, which ends earlier in rounding [1].
+const KNOWN_WITHIN_BODYWISE: f64 = 0.02;
+
+/// Rounding of a sum of impulses over many layers, as part of the largest of them [1].
+const ROUNDING_OF_MANY: f64 = 5e-14;
 
 /// Up to this many contacts indeterminate shares are brought to their least norm, whose cost grows with their cube.
 const SMALLEST_UP_TO: usize = 24;
@@ -32,13 +38,13 @@ const SMALLEST_UP_TO: usize = 24;
 pub(super) fn solve_in_two_stages<D: Dim>(
     problem: &mut Problem<D>,
     contacts: &[u32],
-    surfaces: impl Fn(usize) -> Surface,
+    world: &World<'_, D>,
     settings: &VelocitySettings,
     report: &mut VelocityReport,
 ) {
     let before: Vec<D::Vector> = contacts.iter().map(|i| tangential(problem.impulses[*i as usize])).collect();
-    choose_friction(problem, contacts, &surfaces);
-    let first = solve(problem, contacts, settings);
+    choose_friction(problem, contacts, world);
+    let first = solve(problem, contacts, world, settings);
     let slip_above = 10.0 * settings.tolerance;
     let mut any_changed = false;
     for (contact, before) in contacts.iter().zip(&before) {
@@ -54,9 +60,9 @@ pub(super) fn solve_in_two_stages<D: Dim>(
     }
     let mut last = first;
     if any_changed {
-        choose_friction(problem, contacts, &surfaces);
+        choose_friction(problem, contacts, world);
         let before: Vec<D::Vector> = contacts.iter().map(|i| problem.impulses[*i as usize]).collect();
-        last = solve(problem, contacts, settings);
+        last = solve(problem, contacts, world, settings);
         last.iterations += first.iterations;
         // Two coefficients can leave no solution where one had some; the first stage is one then.
         if last.residual.is_nan() {
@@ -76,11 +82,11 @@ pub(super) fn solve_in_two_stages<D: Dim>(
     last.add_to(report);
 }
 
-fn choose_friction<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], surfaces: &impl Fn(usize) -> Surface) {
+fn choose_friction<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], world: &World<'_, D>) {
     for contact in contacts.iter().map(|i| *i as usize) {
         problem.friction[contact] = match problem.slip[contact] {
-            Slip::Sticking => surfaces(contact).static_friction,
-            Slip::Sliding => surfaces(contact).kinetic_friction,
+            Slip::Sticking => world.rows[contact].surface.static_friction,
+            Slip::Sliding => world.rows[contact].surface.kinetic_friction,
         };
     }
 }
@@ -103,6 +109,8 @@ enum Method {
     Pivoting,
     Sweeps,
     Newton,
+    /// Newton's method on the velocities of the bodies.
+    Bodywise,
 }
 
 impl IslandEnd {
@@ -114,7 +122,7 @@ impl IslandEnd {
             Method::FirstGuess => report.known += 1,
             Method::Pivoting => report.pivoted += 1,
             Method::Sweeps => report.swept += 1,
-            Method::Newton => report.newton += 1,
+            Method::Newton | Method::Bodywise => report.newton += 1,
         }
         report.fell_back += u32::from(self.fell_back);
         if self.ending == Ending::NotConverged {
@@ -124,7 +132,12 @@ impl IslandEnd {
 }
 
 /// Solves an island with μ as it is, from the impulses that are there.
-fn solve<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], settings: &VelocitySettings) -> IslandEnd {
+fn solve<D: Dim>(
+    problem: &mut Problem<D>,
+    contacts: &[u32],
+    world: &World<'_, D>,
+    settings: &VelocitySettings,
+) -> IslandEnd {
     let size = contacts.iter().map(|i| problem.q[*i as usize].length()).fold(0.0, f64::max);
     let bar = settings.tolerance * size.max(1.0);
     if contacts.len() == 1 {
@@ -133,7 +146,18 @@ fn solve<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], settings: &Velocity
         problem.impulses[contact] = problem.solve_alone(contact);
         return ended(problem, contacts, Method::Pivoting, 0, bar);
     }
-    let known = ended(problem, contacts, Method::FirstGuess, 0, KNOWN_WITHIN * bar);
+    // Bodies that joints hold are not free to move one by one.
+    let fits = |method: &&Method| **method != Method::Bodywise || (D::Vector::AXES == 2 && !world.are_held);
+    let methods = || methods::<D>(settings.solver, contacts.len()).iter().filter(fits).copied();
+    let is_bodywise = methods().next() == Some(Method::Bodywise);
+    let good_guess = if is_bodywise {
+        let own = |i: usize| problem.coupling.own(i).column(0)[0];
+        let load = contacts.iter().map(|i| *i as usize).map(|i| problem.impulses[i][0] * own(i)).fold(0.0, f64::max);
+        (ROUNDING_OF_MANY * load).clamp(KNOWN_WITHIN_BODYWISE * bar, 0.1 * bar)
+    } else {
+        KNOWN_WITHIN * bar
+    };
+    let known = ended(problem, contacts, Method::FirstGuess, 0, good_guess);
     if known.ending == Ending::Converged {
         return known;
     }
@@ -141,8 +165,9 @@ fn solve<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], settings: &Velocity
     let start = present(problem, contacts);
     let mut iterations = 0;
     let mut matrix = None;
-    for (turn, method) in methods::<D>(settings.solver, contacts.len()).iter().copied().enumerate() {
+    for (turn, method) in methods().enumerate() {
         let done = match method {
+            Method::Bodywise => bodywise::solve(problem, contacts, world.rows, world.bodies, bar, good_guess),
             Method::Sweeps | Method::FirstGuess => Some(sweep::sweep(problem, contacts, bar, settings.sweeps) as usize),
             Method::Pivoting | Method::Newton => {
                 let w = matrix.get_or_insert_with(|| problem.coupling.dense(contacts));
@@ -161,8 +186,8 @@ fn solve<D: Dim>(problem: &mut Problem<D>, contacts: &[u32], settings: &Velocity
                 _ => end,
             };
         }
-        // Newton's method goes on from where sweeps end; any other begins afresh.
-        if method != Method::Sweeps {
+        // These leave something better than they found; after any other the next begins afresh.
+        if !matches!(method, Method::Sweeps | Method::Bodywise) {
             restore(problem, contacts, &start);
         }
     }
@@ -183,8 +208,10 @@ fn methods<D: Dim>(solver: VelocitySolver, contacts: usize) -> &'static [Method]
         VelocitySolver::Newton => &[Method::Newton],
         VelocitySolver::Auto if rows <= PIVOT_UP_TO_ROWS => &[Method::Pivoting, Method::Newton],
         VelocitySolver::Auto if rows <= NEWTON_UP_TO_ROWS => &[Method::Newton, Method::Pivoting],
-        VelocitySolver::Auto if rows <= NEWTON_AFTER_SWEEPS_UP_TO_ROWS => &[Method::Sweeps, Method::Newton],
-        VelocitySolver::Auto => &[Method::Sweeps],
+        VelocitySolver::Auto if rows <= NEWTON_AFTER_SWEEPS_UP_TO_ROWS => {
+            &[Method::Bodywise, Method::Sweeps, Method::Newton]
+        }
+        VelocitySolver::Auto => &[Method::Bodywise, Method::Sweeps],
     }
 }
 

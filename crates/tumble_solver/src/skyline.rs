@@ -9,7 +9,7 @@ const REDUNDANT_BELOW: f64 = 1e-12;
 
 /// The factors, row after row.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Skyline {
+pub(crate) struct Skyline {
     /// Column of the first stored entry of each row.
     first: Vec<u32>,
     /// Where each row begins in `entries`.
