@@ -13,7 +13,8 @@ pub use tumble_scene::format::{Expectation, ScalarExpectation, Scene, VectorExpe
 pub use tumble_scene::shipped::Shipped;
 pub use tumble_scene::{Check, FromScene, ToScene};
 pub use tumble_shape::{
-    Capsule, ConvexHull, ConvexPolygon, Cuboid, Disc, HalfPlane, HalfSpace, PlanarShape, Rod, SpatialRod, SpatialShape, Sphere,
+    Capsule, ConvexHull, ConvexPolygon, Cuboid, Disc, HalfPlane, HalfSpace, PlanarShape, Rod, SpatialRod, SpatialShape,
+    Sphere,
 };
 pub use tumble_sim::{
     Amount, Anchor, AngularVelocity, AppliedForce, Axes, BodyId, BodyKind, CentreOverride, Clock, ContactModel, Course,

@@ -313,7 +313,7 @@ fn scene() -> impl Strategy<Value = Scene> {
 fn what_is_written_reads_back_equal() {
     // The generator of random scenes keeps whole scenes on the stack, many times over where nothing is optimised.
     let test = || {
-        TestRunner::new(quick(150)).run(&scene(), |scene| {
+        let run = TestRunner::new(quick(150)).run(&scene(), |scene| {
             let text = scene.to_ron();
             let options = ron::Options::default().with_default_extension(
                 ron::extensions::Extensions::IMPLICIT_SOME
@@ -329,7 +329,8 @@ fn what_is_written_reads_back_equal() {
                 prop_assert!(placed, "{}\n{}", mistakes, text);
             }
             Ok(())
-        })
+        });
+        run.map_err(|failure| failure.to_string())
     };
     let thread = thread::Builder::new().stack_size(64 << 20).spawn(test).expect("a thread can be started");
     thread.join().expect("nothing panics").expect("every scene comes back");
