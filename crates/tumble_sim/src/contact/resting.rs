@@ -162,7 +162,7 @@ impl<D: Geometry> RestingModel<D> {
             // A gap that opens faster than gravity could make up for within the step is no rest, unless the bodies turned that far in the
             // last one: their velocities are tangents.
             let turning = 1.5 * gap.drift(row, &problem.bodies)[0].abs() * settings.dt;
-            let slow = settings.rest_speed(row.normal()) + turning + settings.colliding_above();
+            let slow = settings.rest_speed(row.normal()).max(settings.touch_tolerance()) + turning;
             if row.separating_speed(&problem.bodies) > slow {
                 continue;
             }
