@@ -59,6 +59,9 @@ impl<D: Dim> Default for RestingModel<D> {
     }
 }
 
+/// A gap that opens more slowly than this stands still: what rounding leaves of a speed that was stopped [length scales per second].
+const ROUNDING: f64 = 1e-12;
+
 /// Adds the forces of all points at rest.
 pub fn apply_resting_forces<D: Geometry>(
     clock: Res<Clock>,
@@ -162,7 +165,7 @@ impl<D: Geometry> RestingModel<D> {
             // A gap that opens faster than gravity could make up for within the step is no rest, unless the bodies turned that far in the
             // last one: their velocities are tangents.
             let turning = 1.5 * gap.drift(row, &problem.bodies)[0].abs() * settings.dt;
-            let slow = settings.rest_speed(row.normal()).max(settings.touch_tolerance()) + turning;
+            let slow = settings.rest_speed(row.normal()).max(ROUNDING * settings.length_scale) + turning;
             if row.separating_speed(&problem.bodies) > slow {
                 continue;
             }
