@@ -14,13 +14,15 @@ pub struct Clock {
     pub dt: f64,
     part: f64,
     done: f64,
+    /// What is left of the step after the part [s].
+    left: f64,
     part_before: f64,
 }
 
 impl Clock {
     /// A clock at time 0.
     pub fn new(dt: f64) -> Self {
-        Self { step: 0, dt, part: dt, done: 0.0, part_before: dt }
+        Self { step: 0, dt, part: dt, done: 0.0, left: 0.0, part_before: dt }
     }
 
     /// Length of the part of the step being taken [s].
@@ -45,20 +47,21 @@ impl Clock {
 
     /// Time at the end of the part being taken [s].
     pub fn time_after_part(&self) -> f64 {
-        if self.done + self.part < self.dt { self.time() + self.part } else { (self.step + 1) as f64 * self.dt }
+        if self.left > 0.0 { self.time() + self.part } else { (self.step + 1) as f64 * self.dt }
     }
 
-    /// Makes the part being taken end early.
+    /// Makes the part being taken end early, after a shorter time [s].
     pub(crate) fn cut(&mut self, part: f64) {
+        self.left += self.part - part;
         self.part = part;
     }
 
     /// Ends the part being taken; the next one is what is left of the step. True when nothing is.
     pub(crate) fn end_part(&mut self) -> bool {
         self.part_before = self.part;
-        self.done += self.part;
-        self.part = self.dt - self.done;
-        if self.part > 0.0 {
+        if self.left > 0.0 {
+            self.done += self.part;
+            (self.part, self.left) = (self.left, 0.0);
             return false;
         }
         (self.step, self.done, self.part) = (self.step + 1, 0.0, self.dt);

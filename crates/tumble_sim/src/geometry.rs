@@ -54,6 +54,9 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
         + Sync
         + 'static;
 
+    /// Whether fixed and prismatic joints exist.
+    const JOINTS_HOLD_DIRECTIONS: bool;
+
     /// Mass, centre and inertia of a shape; `None` for one without bounds.
     fn mass_properties(shape: &Self::Shape, amount: Amount) -> Option<MassProperties<Self>>;
 

@@ -1,6 +1,7 @@
 //! What a user should know about a run that went through: counted, with the worst case kept.
 
 use bevy_ecs::prelude::*;
+use tumble_solver::resting_lcp::RestingSettings;
 
 use crate::body::BodyTable;
 use crate::contact::MOST_PARTS;
@@ -24,6 +25,18 @@ pub struct Counted {
     pub steps: u64,
     /// The first, counted from 1.
     pub first_step: u64,
+    last_step: u64,
+}
+
+impl Counted {
+    /// Counts a step, once: one that is cut at impacts is prepared several times.
+    fn count(counted: &mut Option<Self>, step: u64) {
+        let counted = counted.get_or_insert(Self { steps: 0, first_step: step, last_step: 0 });
+        if counted.last_step != step {
+            counted.steps += 1;
+            counted.last_step = step;
+        }
+    }
 }
 
 /// Bodies that moved further within a step than contacts are made beforehand.
@@ -73,15 +86,15 @@ impl Notices {
     }
 
     pub(crate) fn no_solution(&mut self, step: u64) {
-        self.no_solution.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
+        Counted::count(&mut self.no_solution, step);
     }
 
     pub(crate) fn not_unique(&mut self, step: u64) {
-        self.not_unique.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
+        Counted::count(&mut self.not_unique, step);
     }
 
     pub(crate) fn too_many_impacts(&mut self, step: u64) {
-        self.too_many_impacts.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
+        Counted::count(&mut self.too_many_impacts, step);
     }
 
     /// Steps in which impacts followed each other too closely to cut the step at each.
@@ -90,7 +103,7 @@ impl Notices {
     }
 
     pub(crate) fn too_large(&mut self, step: u64) {
-        self.too_large.get_or_insert(Counted { steps: 0, first_step: step }).steps += 1;
+        Counted::count(&mut self.too_large, step);
     }
 
     /// Steps in which contacts that hang together were too many for the resting model, so that impulses resolved them.
@@ -137,22 +150,23 @@ impl Notices {
                 table.entry(fast.body).name, fast.distance, fast.step, fast.count
             ));
         }
-        if let Some(Counted { steps, first_step }) = self.no_solution {
+        if let Some(Counted { steps, first_step, .. }) = self.no_solution {
             sentences.push(format!(
                 "no contact forces satisfy all conditions in {steps} steps, first in step {first_step} (a Painlevé configuration): impulses resolved them"
             ));
         }
-        if let Some(Counted { steps, first_step }) = self.not_unique {
+        if let Some(Counted { steps, first_step, .. }) = self.not_unique {
             sentences.push(format!(
                 "more than one outcome satisfies all contact conditions in {steps} steps, first in step {first_step}: the smallest forces were taken"
             ));
         }
-        if let Some(Counted { steps, first_step }) = self.too_large {
+        if let Some(Counted { steps, first_step, .. }) = self.too_large {
+            let most = RestingSettings::default().largest_island;
             sentences.push(format!(
-                "more than 100 contacts hang together in {steps} steps, first in step {first_step}: too many for resting forces, so impulses resolved them"
+                "more than {most} contacts hang together in {steps} steps, first in step {first_step}: too many for resting forces, so impulses resolved them"
             ));
         }
-        if let Some(Counted { steps, first_step }) = self.too_many_impacts {
+        if let Some(Counted { steps, first_step, .. }) = self.too_many_impacts {
             sentences.push(format!(
                 "{steps} steps had more than {MOST_PARTS} impacts, first step {first_step}: the rest were answered at the end of the step"
             ));

@@ -171,12 +171,4 @@ pub enum JointError {
         /// The parameter.
         quantity: &'static str,
     },
-    /// The joint holds a direction, which only joints of the plane do.
-    #[error("the joint between bodies {a} and {b} holds a direction, which joints in space cannot do yet")]
-    NotInSpace {
-        /// Index of the first body.
-        a: u32,
-        /// Index of the second body.
-        b: u32,
-    },
 }

@@ -19,12 +19,6 @@ pub(super) struct Reading {
     pub touch_tolerance: f64,
 }
 
-/// The reading of a point where the step ends at the impact itself: its speed is what it is.
-pub(super) fn at_impact(approach: f64, source: &RowSource, rest_below: f64) -> Approach {
-    let ignored = if source.held_back { approach.max(0.0) } else { 0.0 };
-    Approach { correction: -ignored, ignored, rest_below, ..Approach::default() }
-}
-
 impl Reading {
     /// Corrects the approach speed of a point for the acceleration that its velocity contains.
     ///
@@ -78,4 +72,10 @@ impl Reading {
         };
         row.normal().dot(of(row.b, row.arm_b) - of(row.a, row.arm_a))
     }
+}
+
+/// The reading of a point where the step ends at the impact itself: its speed is what it is.
+pub(super) fn at_impact(approach: f64, source: &RowSource, rest_below: f64) -> Approach {
+    let ignored = if source.held_back { approach.max(0.0) } else { 0.0 };
+    Approach { correction: -ignored, ignored, rest_below, ..Approach::default() }
 }

@@ -207,7 +207,6 @@ pub fn resolve_impulses<D: Geometry>(
 
     // Slower approaches than this are left to the velocity filter of the next step, which stops all of them at once.
     let threshold = |row: &ContactRow<D>| match (settings.impulse.colliding_above, row.surface.restitution) {
-        _ if settings.cuts_at_impacts() => 0.0,
         (Some(_), _) => 0.0,
         (None, 0.0) => 0.5 * settings.gravity.length() * settings.dt,
         (None, _) => 0.02 * settings.rest_speed(row.normal()),

@@ -22,6 +22,8 @@ impl Geometry for Spatial {
     type Manifold = SpatialManifold;
     type PerPoint<T: Copy + Debug + Default + Send + Sync + 'static> = [T; 4];
 
+    const JOINTS_HOLD_DIRECTIONS: bool = false;
+
     fn mass_properties(shape: &SpatialShape, amount: Amount) -> Option<MassProperties<Self>> {
         match amount {
             Amount::Density(density) => shape.mass_properties(density),
@@ -83,8 +85,7 @@ impl Geometry for Spatial {
         a.turn_to(b).rotation_vector()
     }
 
-    /// A revolute joint is a ball joint here: it holds a point and leaves all turning free. Joints that hold directions are not
-    /// there yet in space, and are refused.
+    /// A revolute joint is a ball joint here: it holds a point and leaves all turning free.
     fn push_joint_rows(
         joint: &JointEntry<Self>,
         ends: &JointEnds<Self>,
@@ -95,9 +96,7 @@ impl Geometry for Spatial {
         match joint.kind {
             JointKind::Revolute => revolute::push_rows(ends, bodies, rows),
             JointKind::Distance { length } => distance::push_rows(ends, length, bodies, rows)?,
-            JointKind::Fixed | JointKind::Prismatic { .. } => {
-                return Err(JointError::NotInSpace { a: ends.a, b: ends.b });
-            }
+            JointKind::Fixed | JointKind::Prismatic { .. } => unreachable!("refused with the table of joints"),
         }
         Ok(())
     }

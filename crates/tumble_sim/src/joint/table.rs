@@ -6,8 +6,6 @@ use bevy_ecs::name::Name;
 use bevy_ecs::prelude::*;
 
 use super::{Joint, JointKind};
-use tumble_math::Vector;
-
 use crate::body::{BodyTable, Orientation};
 use crate::error::BodyError;
 use crate::force::Anchor;
@@ -94,7 +92,7 @@ pub(crate) fn prepare_joints<D: Geometry>(world: &mut World) -> Result<(), BodyE
             bodies.reverse();
             anchors.reverse();
         }
-        if D::Vector::AXES > 2 && matches!(kind, JointKind::Fixed | JointKind::Prismatic { .. }) {
+        if !D::JOINTS_HOLD_DIRECTIONS && matches!(kind, JointKind::Fixed | JointKind::Prismatic { .. }) {
             return Err(BodyError::JointNotInSpace { joint: name });
         }
         if let JointKind::Prismatic { axis } = &mut kind {
