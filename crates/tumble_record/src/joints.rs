@@ -4,10 +4,10 @@ use std::borrow::Cow;
 
 use bevy_ecs::entity::Entity;
 use bevy_ecs::world::World;
-use glam::DVec2;
-use tumble_math::Planar;
+use tumble_math::Linear;
 use tumble_sim::{Anchor, BodyIndex, BodyTable, Clock, Joint, JointKind, JointProblem, JointTable};
 
+use crate::dim::RecordDim;
 use crate::recording::{AnchorRecord, JointForce, JointRecord, Sample};
 
 /// The joints that are in the world, in the order of their table.
@@ -28,31 +28,31 @@ struct Present {
 
 impl JointLog {
     /// Adds joints that are new, and notes the time of those that are gone [s].
-    pub fn follow(
+    pub fn follow<D: RecordDim>(
         &mut self,
         world: &World,
         body_of: impl Fn(Entity) -> Option<usize>,
         time: f64,
-        recorded: &mut Vec<JointRecord>,
+        recorded: &mut Vec<JointRecord<D>>,
     ) {
-        let entries = world.resource::<JointTable<Planar>>().entries();
+        let entries = world.resource::<JointTable<D>>().entries();
         let is_known = |(present, entity): (&Present, Entity)| present.entity == entity;
         if self.present.len() == entries.len()
             && self.present.iter().zip(entries.iter().map(|entry| entry.entity)).all(is_known)
         {
             return;
         }
-        let end = |anchor: &Anchor<DVec2>| match *anchor {
+        let end = |anchor: &Anchor<D::Vector>| match *anchor {
             Anchor::World(point) => Some(AnchorRecord { body: None, point }),
             Anchor::Body(entity, point) => body_of(entity).map(|body| AnchorRecord { body: Some(body), point }),
         };
-        let rank = |anchor: &Anchor<DVec2>| match *anchor {
+        let rank = |anchor: &Anchor<D::Vector>| match *anchor {
             Anchor::World(_) => world.resource::<BodyTable>().entries().len() as u32,
             Anchor::Body(entity, _) => world.get::<BodyIndex>(entity).map_or(u32::MAX, |index| index.0),
         };
         let before = std::mem::take(&mut self.present);
         for entry in entries {
-            let Some(joint) = world.get::<Joint<DVec2>>(entry.entity) else { continue };
+            let Some(joint) = world.get::<Joint<D::Vector>>(entry.entity) else { continue };
             let (Some(a), Some(b)) = (end(&joint.a), end(&joint.b)) else { continue };
             let known = before.iter().find(|known| known.entity == entry.entity).map(|known| known.index);
             let index = known.unwrap_or_else(|| {
@@ -79,8 +79,13 @@ impl JointLog {
     }
 
     /// What each joint did in the step that ended with this sample.
-    pub fn forces(&self, world: &World, recorded: &[JointRecord], sample: &Sample) -> Vec<JointForce> {
-        let (table, problem) = (world.resource::<JointTable<Planar>>(), world.resource::<JointProblem<Planar>>());
+    pub fn forces<D: RecordDim>(
+        &self,
+        world: &World,
+        recorded: &[JointRecord<D>],
+        sample: &Sample<D>,
+    ) -> Vec<JointForce<D>> {
+        let (table, problem) = (world.resource::<JointTable<D>>(), world.resource::<JointProblem<D>>());
         let per_dt = 1.0 / world.resource::<Clock>().dt;
         let forces = self.present.iter().filter_map(|present| {
             let order = table.entries().iter().position(|entry| entry.entity == present.entity)?;
@@ -88,8 +93,8 @@ impl JointLog {
             let (impulse, about_centre) = problem.given(order);
             let torque = match entry.kind {
                 // A force through the anchor, and nothing else.
-                JointKind::Revolute | JointKind::Distance { .. } => 0.0,
-                JointKind::Fixed | JointKind::Prismatic { .. } => about_centre - problem.arm_b(entry).perp_dot(impulse),
+                JointKind::Revolute | JointKind::Distance { .. } => D::Angular::ZERO,
+                _ => about_centre - D::torque(problem.arm_b(entry), impulse),
             };
             Some(JointForce {
                 joint: present.index,
@@ -105,7 +110,7 @@ impl JointLog {
 #[cfg(test)]
 mod tests {
     use bevy_ecs::name::Name;
-    use glam::dvec2;
+    use glam::{DVec2, dvec2};
     use tumble_shape::Rod;
     use tumble_sim::{Amount, Part, Position, Settings, Simulation};
 

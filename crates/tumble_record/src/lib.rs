@@ -12,10 +12,10 @@
 //! SI units, world frame unless said otherwise; angles in radians, accumulated over turns.
 
 mod channel;
+mod dim;
 mod files;
 mod fingerprint;
 mod joints;
-mod ledger;
 mod names;
 mod output;
 pub mod plot;
@@ -32,14 +32,14 @@ pub use channel::{
     BodyQuantity, Channel, ChannelError, JointQuantity, MOST_CURVES, Series, WorldQuantity, body_quantity_names,
     joint_quantity_names, world_names,
 };
+pub use dim::{Columns, Geometry, Home, Plain, RecordDim, SpatialGeometry, TurnAxis};
 pub use files::{Completeness, FileAction, FileError, OutputFolder, PreparedFiles, write_file};
 pub use fingerprint::{Fingerprint, FingerprintHasher, ParseFingerprintError};
-pub use ledger::{LedgerRecord, SolverEnd};
 pub use output::{OutputError, write_run};
 pub use recorder::Record;
 pub use recording::{
-    AnchorRecord, AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, JointForce, JointRecord,
-    Recording, Sample, ShapeRecord, SpringRecord, Touch, TouchPhase,
+    AnchorRecord, AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, JointForce, JointRecord, Recording, Sample,
+    ShapeRecord, SpringRecord, Touch, TouchPhase,
 };
 pub use sampling::Sampling;
 pub use summary::{Summary, energy_drift};

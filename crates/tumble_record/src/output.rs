@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use crate::channel::{Channel, ChannelError};
+use crate::dim::{Home, RecordDim};
 use crate::files::{Completeness, FileError, OutputFolder};
 use crate::plot::Plot;
 use crate::recording::Recording;
@@ -27,10 +28,10 @@ pub enum OutputError {
 /// These are `trajectory.csv`, `contacts.csv`, `audit.csv`, `touches.csv`, `joints.csv` if there are joints, `summary.json`, `energy.svg`, `replay.html`
 /// and one SVG per channel, named by [`Channel::file_stem`]. A whole run replaces the files of an earlier one; a partial
 /// one goes to the folder `partial` beside them.
-pub fn write_run(
+pub fn write_run<D: RecordDim>(
     folder: &OutputFolder,
     completeness: Completeness,
-    recording: &Recording,
+    recording: &Recording<D>,
     summary: &Summary,
     channels: &[Channel],
 ) -> Result<Vec<PathBuf>, OutputError> {
@@ -51,6 +52,8 @@ pub fn write_run(
     for (name, plot) in &plots {
         files.add(name, |out| out.write_all(plot.to_svg().as_bytes()))?;
     }
-    files.add("replay.html", |out| write_replay(recording, out))?;
+    if D::HOME == Home::Plane {
+        files.add("replay.html", |out| write_replay(recording, out))?;
+    }
     Ok(files.publish()?)
 }

@@ -15,6 +15,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, IntoTextStyle, RGBColor, ShapeStyle, TextStyle, WHITE};
 
 use crate::channel::{Channel, ChannelError, Series, WorldQuantity, world_series};
+use crate::dim::RecordDim;
 use crate::recording::Recording;
 use crate::thin::keep_extremes;
 
@@ -101,7 +102,7 @@ type DrawResult = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
 impl Plot {
     /// Shows kinetic, potential and total energy over time: `energy.svg`.
-    pub fn energy(recording: &Recording) -> Self {
+    pub fn energy<D: RecordDim>(recording: &Recording<D>) -> Self {
         let curves = [
             (WorldQuantity::Kinetic, "kinetic"),
             (WorldQuantity::Potential, "potential"),
@@ -118,7 +119,7 @@ impl Plot {
     }
 
     /// Shows a channel over time.
-    pub fn channel(recording: &Recording, channel: &Channel) -> Result<Self, ChannelError> {
+    pub fn channel<D: RecordDim>(recording: &Recording<D>, channel: &Channel) -> Result<Self, ChannelError> {
         let value_label = match channel.unit() {
             "1" => channel.name().replace('_', " "),
             unit => format!("{} [{unit}]", channel.name().replace('_', " ")),
@@ -258,7 +259,7 @@ fn point(x: i32, y: i32) -> (i32, i32) {
 }
 
 /// Returns the heading of a plot: scene, quantity and contact model.
-fn heading(recording: &Recording, quantity: &str) -> String {
+fn heading<D: RecordDim>(recording: &Recording<D>, quantity: &str) -> String {
     let parts = [recording.scene.as_str(), quantity, recording.contact.as_str()];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  ·  ")
 }

@@ -6,9 +6,7 @@ use std::collections::HashMap;
 use bevy_ecs::change_detection::Tick;
 use bevy_ecs::message::MessageCursor;
 use bevy_ecs::prelude::*;
-use glam::{DVec2, dvec2};
-use tumble_math::{Planar, PlanarRotation, Pose};
-use tumble_shape::PlanarShape;
+use tumble_math::{Dim, Inertia, Linear, Pose};
 use tumble_sim::contact::{Colliders, ContactManifold, ContactMemory, ContactPair};
 use tumble_sim::force::{gravity_potential, spring_potential};
 use tumble_sim::{
@@ -17,16 +15,19 @@ use tumble_sim::{
     Touch as TouchMessage,
 };
 
+use crate::dim::RecordDim;
 use crate::joints::JointLog;
 use crate::recording::{
-    AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Geometry, Recording, Sample, ShapeRecord, Touch,
-    TouchPhase,
+    AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Recording, Sample, ShapeRecord, Touch, TouchPhase,
 };
 use crate::sampling::Sampling;
 use crate::springs::SpringLog;
 
 /// Recording of a simulation.
 pub trait Record {
+    /// The plane or space.
+    type Dim: RecordDim;
+
     /// Starts to record: a sample now, after every `every`-th step, and of the last step; audits and touches of every step.
     ///
     /// # Errors
@@ -44,52 +45,55 @@ pub trait Record {
     fn record_sampled(&mut self, sampling: Sampling) -> Result<(), StepError>;
 
     /// What was recorded so far, the present included; `None` unless [`record`](Self::record) was called.
-    fn recording(&mut self) -> Option<&Recording>;
+    fn recording(&mut self) -> Option<&Recording<Self::Dim>>;
 
     /// Takes the recording out, the present included, and ends it.
-    fn take_recording(&mut self) -> Option<Recording>;
+    fn take_recording(&mut self) -> Option<Recording<Self::Dim>>;
 }
 
-impl Record for Simulation<Planar> {
+impl<D: RecordDim> Record for Simulation<D> {
+    type Dim = D;
+
     fn record_sampled(&mut self, sampling: Sampling) -> Result<(), StepError> {
         if self.world().get_resource::<Ledger>().is_none() {
             self.keep_ledger();
         }
         self.prepare()?;
         let settings = self.settings();
-        let recording = Recording {
+        let recording = Recording::<D> {
             contact: settings.contact.word().to_owned(),
             dt: settings.dt,
             length_scale: settings.length_scale,
+            gravity: settings.gravity,
             ..Recording::default()
         };
-        let first = self.world().get_resource::<Recorder>().is_none();
+        let first = self.world().get_resource::<Recorder<D>>().is_none();
         let mut recorder = Recorder::new(recording, sampling, self.world_mut());
         recorder.audit(self.world());
         recorder.sample(self.world());
         self.world_mut().insert_resource(recorder);
         if first {
-            self.after_step(after_step);
+            self.after_step(after_step::<D>);
         }
         Ok(())
     }
 
-    fn recording(&mut self) -> Option<&Recording> {
-        with_recorder(self.world_mut(), Recorder::sample_present);
-        self.world().get_resource::<Recorder>().map(|recorder| &recorder.recording)
+    fn recording(&mut self) -> Option<&Recording<D>> {
+        with_recorder::<D>(self.world_mut(), Recorder::sample_present);
+        self.world().get_resource::<Recorder<D>>().map(|recorder| &recorder.recording)
     }
 
-    fn take_recording(&mut self) -> Option<Recording> {
-        with_recorder(self.world_mut(), Recorder::sample_present);
-        self.world_mut().get_resource_mut::<Recorder>().map(|mut recorder| {
+    fn take_recording(&mut self) -> Option<Recording<D>> {
+        with_recorder::<D>(self.world_mut(), Recorder::sample_present);
+        self.world_mut().get_resource_mut::<Recorder<D>>().map(|mut recorder| {
             recorder.state = State::Ended;
             std::mem::take(&mut recorder.recording)
         })
     }
 }
 
-fn after_step(world: &mut World) {
-    with_recorder(world, |recorder, world| {
+fn after_step<D: RecordDim>(world: &mut World) {
+    with_recorder::<D>(world, |recorder, world| {
         recorder.follow_structure(world);
         recorder.follow_springs_and_joints(world);
         recorder.audit(world);
@@ -102,16 +106,16 @@ fn after_step(world: &mut World) {
 }
 
 /// Calls a function with the recorder and the world it looks at.
-fn with_recorder(world: &mut World, function: impl FnOnce(&mut Recorder, &World)) {
+fn with_recorder<D: RecordDim>(world: &mut World, function: impl FnOnce(&mut Recorder<D>, &World)) {
     // The recorder is lent out as a whole: its place in the world stays, empty.
-    let Some(mut place) = world.get_resource_mut::<Recorder>() else { return };
+    let Some(mut place) = world.get_resource_mut::<Recorder<D>>() else { return };
     if place.state == State::Ended {
         return;
     }
     let mut recorder = std::mem::replace(&mut *place, Recorder::lent());
     recorder.queries.update(world);
     function(&mut recorder, world);
-    *world.resource_mut::<Recorder>() = recorder;
+    *world.resource_mut::<Recorder<D>>() = recorder;
 }
 
 /// Whether the recorder is at work.
@@ -123,8 +127,8 @@ enum State {
 
 /// Records into a [`Recording`].
 #[derive(Resource)]
-struct Recorder {
-    recording: Recording,
+struct Recorder<D: RecordDim> {
+    recording: Recording<D>,
     sampling: Sampling,
     state: State,
     /// Index in the recording of each body id.
@@ -137,41 +141,50 @@ struct Recorder {
     springs: SpringLog,
     joints: JointLog,
     cursor: MessageCursor<TouchMessage>,
-    queries: Queries,
+    queries: Queries<D>,
 }
 
-type BodyComponents = (
+type BodyComponents<D> = (
     &'static BodyIndex,
-    &'static Position<DVec2>,
-    &'static Orientation<PlanarRotation>,
-    &'static LinearVelocity<DVec2>,
-    &'static AngularVelocity<f64>,
+    &'static Position<<D as Dim>::Vector>,
+    &'static Orientation<<D as Dim>::Rotation>,
+    &'static LinearVelocity<<D as Dim>::Vector>,
+    &'static AngularVelocity<<D as Dim>::Angular>,
     &'static Mass,
-    &'static BodyInertia<f64>,
+    &'static BodyInertia<<D as Dim>::Inertia>,
     Option<&'static GravityScale>,
 );
-type SpringComponents = (Entity, &'static Spring<DVec2>);
-type PairComponents = (&'static ContactPair, &'static ContactManifold<Planar>, &'static ContactMemory<Planar>);
+type SpringComponents<D> = (Entity, &'static Spring<<D as Dim>::Vector>);
+type PairComponents<D> = (&'static ContactPair, &'static ContactManifold<D>, &'static ContactMemory<D>);
 
 /// Queries over the world, built once.
-struct Queries(Option<(QueryState<BodyComponents>, QueryState<PairComponents>, QueryState<SpringComponents>)>);
+struct Queries<D: RecordDim>(Option<BuiltQueries<D>>);
 
-impl Queries {
+struct BuiltQueries<D: RecordDim> {
+    bodies: QueryState<BodyComponents<D>>,
+    pairs: QueryState<PairComponents<D>>,
+    springs: QueryState<SpringComponents<D>>,
+}
+
+impl<D: RecordDim> Queries<D> {
     fn update(&mut self, world: &mut World) {
-        let queries = self.0.get_or_insert_with(|| (world.query(), world.query(), world.query()));
-        queries.0.update_archetypes(world);
-        queries.1.update_archetypes(world);
-        queries.2.update_archetypes(world);
+        let queries = self.0.get_or_insert_with(|| BuiltQueries {
+            bodies: world.query(),
+            pairs: world.query(),
+            springs: world.query(),
+        });
+        queries.bodies.update_archetypes(world);
+        queries.pairs.update_archetypes(world);
+        queries.springs.update_archetypes(world);
     }
 
-    fn get(&self) -> (&QueryState<BodyComponents>, &QueryState<PairComponents>, &QueryState<SpringComponents>) {
-        let (bodies, pairs, springs) = self.0.as_ref().expect("queries are built before they are used");
-        (bodies, pairs, springs)
+    fn get(&self) -> &BuiltQueries<D> {
+        self.0.as_ref().expect("queries are built before they are used")
     }
 }
 
-impl Recorder {
-    fn new(recording: Recording, sampling: Sampling, world: &mut World) -> Self {
+impl<D: RecordDim> Recorder<D> {
+    fn new(recording: Recording<D>, sampling: Sampling, world: &mut World) -> Self {
         let mut recorder = Self { recording, sampling, state: State::Recording, ..Self::lent() };
         recorder.queries.update(world);
         recorder.follow_structure(world);
@@ -203,7 +216,7 @@ impl Recorder {
             return;
         }
         self.table_tick = Some(table.last_changed());
-        let colliders = world.resource::<Colliders<Planar>>();
+        let colliders = world.resource::<Colliders<D>>();
         self.of_rank.clear();
         for (rank, entry) in table.entries().iter().enumerate() {
             let next = self.recording.bodies.len();
@@ -216,19 +229,19 @@ impl Recorder {
                     tumble_sim::BodyKind::Static => BodyKind::Static,
                 };
                 let shapes = colliders.of_body(rank as u32);
-                let of = |get: fn(&EntityRef) -> f64| {
-                    if kind == BodyKind::Dynamic { get(&world.entity(entry.entity)) } else { f64::INFINITY }
-                };
+                let body = Some(world.entity(entry.entity)).filter(|_| kind == BodyKind::Dynamic);
                 self.recording.bodies.push(BodyRecord {
                     id: entry.id.0,
                     name: entry.name.clone(),
                     kind,
-                    mass: of(|entity| entity.get::<Mass>().map_or(0.0, |mass| mass.0)),
-                    inertia: of(|entity| entity.get::<BodyInertia<f64>>().map_or(0.0, |inertia| inertia.0)),
+                    mass: body.map_or(f64::INFINITY, |body| body.get::<Mass>().map_or(0.0, |mass| mass.0)),
+                    inertia: body.map_or(D::INFINITE_INERTIA, |body| {
+                        body.get::<BodyInertia<D::Inertia>>().map_or(D::Inertia::ZERO, |inertia| inertia.0)
+                    }),
                     shapes: shapes
                         .iter()
                         .map(|part| ShapeRecord {
-                            geometry: geometry(&part.shape),
+                            geometry: D::outline(&part.shape),
                             sensor: part.response == Response::Sensor,
                         })
                         .collect(),
@@ -239,7 +252,7 @@ impl Recorder {
 
     /// Takes up springs and joints that are new since the last step, and lets go of those that are gone.
     fn follow_springs_and_joints(&mut self, world: &World) {
-        let (_, _, springs) = self.queries.get();
+        let springs = &self.queries.get().springs;
         let body_of =
             |entity| world.get::<BodyIndex>(entity).and_then(|index| self.of_rank.get(index.0 as usize)).copied();
         let time = world.resource::<Clock>().time();
@@ -248,19 +261,20 @@ impl Recorder {
     }
 
     fn audit(&mut self, world: &World) {
-        let (bodies, pairs, springs) = self.queries.get();
-        let settings = world.resource::<Settings<Planar>>();
+        let BuiltQueries { bodies, pairs, springs } = self.queries.get();
+        let settings = world.resource::<Settings<D>>();
         let clock = world.resource::<Clock>();
         let mut row = AuditRow { step: clock.step, time: clock.time(), ..AuditRow::default() };
         // Sums go by rank, so that they do not depend on the order in which bodies were spawned.
-        let mut energies = vec![BodySums::default(); self.of_rank.len()];
-        for (index, x, _, v, w, mass, inertia, scale) in bodies.iter_manual(world) {
+        let mut energies = vec![BodySums::<D>::default(); self.of_rank.len()];
+        for (index, x, rotation, v, w, mass, inertia, scale) in bodies.iter_manual(world) {
             let scale = scale.map_or(1.0, |scale| scale.0);
+            let spin = inertia.0.in_world(&rotation.0).apply(w.0);
             energies[index.0 as usize] = BodySums {
-                kinetic: 0.5 * (mass.0 * v.0.dot(v.0) + inertia.0 * w.0 * w.0),
-                potential: gravity_potential::<Planar>(settings.gravity, mass.0, scale, x.0),
+                kinetic: 0.5 * (mass.0 * v.0.dot(v.0) + w.0.dot(spin)),
+                potential: gravity_potential::<D>(settings.gravity, mass.0, scale, x.0),
                 momentum: v.0 * mass.0,
-                angular_momentum: mass.0 * x.0.perp_dot(v.0) + inertia.0 * w.0,
+                angular_momentum: D::torque(x.0, v.0) * mass.0 + spin,
             };
         }
         for sums in &energies {
@@ -270,7 +284,7 @@ impl Recorder {
             row.angular_momentum += sums.angular_momentum;
         }
         for (_, spring) in springs.iter_manual(world) {
-            if let (Some(a), Some(b)) = (anchor_point(&spring.a, world), anchor_point(&spring.b, world)) {
+            if let (Some(a), Some(b)) = (anchor_point::<D>(&spring.a, world), anchor_point::<D>(&spring.b, world)) {
                 row.potential += spring_potential(spring.stiffness, spring.rest_length, a, b);
             }
         }
@@ -278,7 +292,7 @@ impl Recorder {
         let tolerance = settings.touch_tolerance();
         for (pair, manifold, _) in pairs.iter_manual(world).filter(|(pair, ..)| pair.response == Response::Solid) {
             if pair.touching {
-                let points = manifold.0.points();
+                let points = D::points(&manifold.0);
                 row.contacts += points.iter().filter(|point| point.separation <= tolerance).count() as u64;
                 row.deepest_overlap = points.iter().map(|point| -point.separation).fold(row.deepest_overlap, f64::max);
             }
@@ -288,7 +302,7 @@ impl Recorder {
             row.residual = Some(report.residual);
         }
         if let Some(ledger) = world.get_resource::<Ledger>() {
-            row.ledger = ledger.into();
+            row.ledger = *ledger;
         }
         self.recording.audit.push(row);
     }
@@ -315,23 +329,26 @@ impl Recorder {
     }
 
     fn sample(&mut self, world: &World) {
-        let (bodies, pairs, _) = self.queries.get();
+        let BuiltQueries { bodies, pairs, .. } = self.queries.get();
         let clock = world.resource::<Clock>();
         let mut states = vec![None; self.recording.bodies.len()];
         for (index, x, rotation, v, w, ..) in bodies.iter_manual(world) {
-            states[self.of_rank[index.0 as usize]] =
-                Some(BodyState { position: x.0, angle: rotation.0.angle(), velocity: v.0, angular_velocity: w.0 });
+            states[self.of_rank[index.0 as usize]] = Some(BodyState {
+                position: x.0,
+                orientation: D::orientation(&rotation.0),
+                velocity: v.0,
+                angular_velocity: w.0,
+            });
         }
-        let tolerance = world.resource::<Settings<Planar>>().touch_tolerance();
+        let tolerance = world.resource::<Settings<D>>().touch_tolerance();
         let mut touching: Vec<_> =
             pairs.iter_manual(world).filter(|(pair, ..)| pair.response == Response::Solid).collect();
         touching.sort_by_key(|(pair, ..)| pair.key);
         let mut contacts = Vec::new();
         for (pair, manifold, memory) in touching {
-            let normal = manifold.0.normal;
-            let tangent = dvec2(normal.y, -normal.x);
-            for (point, memory) in manifold.0.points().iter().zip(&memory.0) {
-                if point.separation > tolerance && memory.given == DVec2::ZERO {
+            let normal = D::normal(&manifold.0);
+            for (point, memory) in D::points(&manifold.0).iter().zip(memory.0.as_ref()) {
+                if point.separation > tolerance && memory.given == D::Vector::ZERO {
                     continue;
                 }
                 contacts.push(ContactRecord {
@@ -341,7 +358,7 @@ impl Recorder {
                     normal,
                     separation: point.separation,
                     normal_impulse: memory.given.dot(normal),
-                    tangent_impulse: memory.given.dot(tangent),
+                    tangent_impulse: D::tangent_impulse(normal, memory.given),
                     kind: Cow::Borrowed(point.kind.as_str()),
                 });
             }
@@ -369,31 +386,20 @@ impl Recorder {
 
 /// What one body adds to the sums of an audit row.
 #[derive(Clone, Copy, Default)]
-struct BodySums {
+struct BodySums<D: Dim> {
     kinetic: f64,
     potential: f64,
-    momentum: DVec2,
-    angular_momentum: f64,
+    momentum: D::Vector,
+    angular_momentum: D::Angular,
 }
 
-fn anchor_point(anchor: &Anchor<DVec2>, world: &World) -> Option<DVec2> {
+fn anchor_point<D: RecordDim>(anchor: &Anchor<D::Vector>, world: &World) -> Option<D::Vector> {
     match *anchor {
         Anchor::World(point) => Some(point),
         Anchor::Body(entity, point) => {
-            let position = world.get::<Position<DVec2>>(entity)?.0;
-            let rotation = world.get::<Orientation<PlanarRotation>>(entity)?.0;
-            Some(Pose::<Planar> { position, rotation }.transform_point(point))
-        }
-    }
-}
-
-fn geometry(shape: &PlanarShape) -> Geometry {
-    match shape {
-        PlanarShape::Rod(rod) => Geometry::Rod { from: rod.from(), to: rod.to(), radius: rod.radius() },
-        PlanarShape::Disc(disc) => Geometry::Disc { centre: disc.centre(), radius: disc.radius() },
-        PlanarShape::ConvexPolygon(polygon) => Geometry::Polygon { points: polygon.points().to_vec() },
-        PlanarShape::HalfPlane(plane) => {
-            Geometry::HalfPlane { point: plane.normal() * plane.offset(), normal: plane.normal() }
+            let position = world.get::<Position<D::Vector>>(entity)?.0;
+            let rotation = world.get::<Orientation<D::Rotation>>(entity)?.0;
+            Some(Pose::<D> { position, rotation }.transform_point(point))
         }
     }
 }

@@ -4,14 +4,16 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
-use tumble_math::{Planar, PlanarRotation, Pose};
+use tumble_math::{Planar, Pose};
+use tumble_sim::Ledger;
 
+use crate::dim::RecordDim;
 use crate::fingerprint::{Fingerprint, FingerprintHasher};
-use crate::ledger::LedgerRecord;
 
 /// Everything that is kept of one run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Recording {
+#[serde(bound = "")]
+pub struct Recording<D: RecordDim = Planar> {
     /// Name of the scene.
     pub scene: String,
     /// One sentence about the scene; may be empty.
@@ -22,25 +24,29 @@ pub struct Recording {
     pub dt: f64,
     /// Typical size of a body, to which tolerances are relative [m].
     pub length_scale: f64,
+    /// Acceleration of gravity; pictures have it point down [m/s²].
+    #[serde(default)]
+    pub gravity: D::Vector,
     /// All bodies that were ever in the world; everything else refers to them by their index here.
-    pub bodies: Vec<BodyRecord>,
+    pub bodies: Vec<BodyRecord<D>>,
     /// All springs that were ever in the world, in the order they appeared.
     #[serde(default)]
-    pub springs: Vec<SpringRecord>,
+    pub springs: Vec<SpringRecord<D>>,
     /// All joints that were ever in the world, in the order they appeared.
     #[serde(default)]
-    pub joints: Vec<JointRecord>,
+    pub joints: Vec<JointRecord<D>>,
     /// States and contacts at the sampled steps, in the order of time.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<Sample<D>>,
     /// Sums over the whole world, one row per step; empty when audits were off.
-    pub audit: Vec<AuditRow>,
+    pub audit: Vec<AuditRow<D>>,
     /// Begin and end of touch, in the order they were sent.
     pub touches: Vec<Touch>,
 }
 
 /// What does not change about a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BodyRecord {
+#[serde(bound = "")]
+pub struct BodyRecord<D: RecordDim = Planar> {
     /// Stable id; decides every order that can touch a number.
     pub id: u64,
     /// Unique name.
@@ -49,10 +55,10 @@ pub struct BodyRecord {
     pub kind: BodyKind,
     /// Mass; infinite for static and kinematic bodies [kg].
     pub mass: f64,
-    /// Moment of inertia about the centre of mass; infinite for static and kinematic bodies [kg·m²].
-    pub inertia: f64,
+    /// Inertia about the centre of mass, in body axes; infinite for static and kinematic bodies [kg·m²].
+    pub inertia: D::Inertia,
     /// Shapes attached to it.
-    pub shapes: Vec<ShapeRecord>,
+    pub shapes: Vec<ShapeRecord<D>>,
 }
 
 /// Who moves a body.
@@ -68,53 +74,22 @@ pub enum BodyKind {
 
 /// A shape on a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ShapeRecord {
+#[serde(bound = "")]
+pub struct ShapeRecord<D: RecordDim = Planar> {
     /// Its outline in the body frame: origin at the centre of mass, turning with the body.
-    pub geometry: Geometry,
+    pub geometry: D::Outline,
     /// Whether it only reports touches and never pushes.
     pub sensor: bool,
 }
 
-/// Outline of a shape, in the body frame [m].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Geometry {
-    /// Straight rod with round ends; radius 0 is the thin rod.
-    Rod {
-        /// One end of the axis [m].
-        from: DVec2,
-        /// Other end of the axis [m].
-        to: DVec2,
-        /// Distance from the axis to the surface [m].
-        radius: f64,
-    },
-    /// Filled circle.
-    Disc {
-        /// Centre [m].
-        centre: DVec2,
-        /// Radius [m].
-        radius: f64,
-    },
-    /// Convex polygon.
-    Polygon {
-        /// Corners, counter-clockwise [m].
-        points: Vec<DVec2>,
-    },
-    /// Everything on the far side of a line.
-    HalfPlane {
-        /// Any point of the surface [m].
-        point: DVec2,
-        /// Unit vector out of the solid [1].
-        normal: DVec2,
-    },
-}
-
 /// A spring between two points.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SpringRecord {
+#[serde(bound = "")]
+pub struct SpringRecord<D: RecordDim = Planar> {
     /// One end.
-    pub a: AnchorRecord,
+    pub a: AnchorRecord<D>,
     /// The other end.
-    pub b: AnchorRecord,
+    pub b: AnchorRecord<D>,
     /// Length without force [m].
     pub rest_length: f64,
     /// Since when it is there [s].
@@ -125,17 +100,18 @@ pub struct SpringRecord {
 
 /// A joint between two bodies, or a body and the world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JointRecord {
+#[serde(bound = "")]
+pub struct JointRecord<D: RecordDim = Planar> {
     /// Unique name.
     pub name: String,
     /// What it lets the two do, in a word: `revolute`, `distance`, `fixed`, `prismatic`.
     pub kind: Cow<'static, str>,
     /// Where it holds the first body.
-    pub a: AnchorRecord,
+    pub a: AnchorRecord<D>,
     /// Where it holds the second body.
-    pub b: AnchorRecord,
+    pub b: AnchorRecord<D>,
     /// Direction of sliding, in the frame of the first body; only of prismatic joints [1].
-    pub axis: Option<DVec2>,
+    pub axis: Option<D::Vector>,
     /// Since when it is there [s].
     pub from: f64,
     /// From when on it is gone; `None` if it stayed to the end [s].
@@ -144,89 +120,92 @@ pub struct JointRecord {
 
 /// What a joint did to its second body in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JointForce {
+#[serde(bound = "")]
+pub struct JointForce<D: RecordDim = Planar> {
     /// Index of the joint.
     pub joint: usize,
     /// Where it holds the second body [m].
-    pub point: DVec2,
+    pub point: D::Vector,
     /// Force at that point, in world axes, mean over the step [N].
-    pub force: DVec2,
-    /// Torque about that point, counter-clockwise, mean over the step [N·m].
-    pub torque: f64,
+    pub force: D::Vector,
+    /// Torque about that point, in world axes, counter-clockwise in the plane, mean over the step [N·m].
+    pub torque: D::Angular,
 }
 
 /// Where a spring or a joint is held.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AnchorRecord {
+#[serde(bound = "")]
+pub struct AnchorRecord<D: RecordDim = Planar> {
     /// Index of the body; `None` for a point of the world.
     pub body: Option<usize>,
     /// The point, in the body frame, or in world axes without a body [m].
-    pub point: DVec2,
+    pub point: D::Vector,
 }
 
 /// The world at one sampled step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Sample {
+#[serde(bound = "")]
+pub struct Sample<D: RecordDim = Planar> {
     /// Steps taken so far; 0 is the start.
     pub step: u64,
     /// Simulated time [s].
     pub time: f64,
     /// State of each body, in the order of [`Recording::bodies`]; `None`, or missing at the end, while a body is not in the world.
-    pub states: Vec<Option<BodyState>>,
+    pub states: Vec<Option<BodyState<D>>>,
     /// Touching points.
-    pub contacts: Vec<ContactRecord>,
+    pub contacts: Vec<ContactRecord<D>>,
     /// Forces of the joints that are in the world, those of the step that ended here.
     #[serde(default)]
-    pub joints: Vec<JointForce>,
+    pub joints: Vec<JointForce<D>>,
 }
 
-impl AnchorRecord {
+impl<D: RecordDim> AnchorRecord<D> {
     /// Returns where it is in a sample, or nothing while its body is not in the world [m].
-    pub fn in_world(&self, sample: &Sample) -> Option<DVec2> {
+    pub fn in_world(&self, sample: &Sample<D>) -> Option<D::Vector> {
         let Some(body) = self.body else { return Some(self.point) };
-        let state = sample.state(body)?;
-        let pose = Pose::<Planar> { position: state.position, rotation: PlanarRotation::from_angle(state.angle) };
-        Some(pose.transform_point(self.point))
+        Some(sample.state(body)?.pose().transform_point(self.point))
     }
 }
 
-impl Sample {
+impl<D: RecordDim> Sample<D> {
     /// Returns the state of a body by its index, or nothing while it is not in the world.
-    pub fn state(&self, body: usize) -> Option<&BodyState> {
+    pub fn state(&self, body: usize) -> Option<&BodyState<D>> {
         self.states.get(body)?.as_ref()
     }
 }
 
 /// Where a body is and how it moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct BodyState {
+#[serde(bound = "")]
+pub struct BodyState<D: RecordDim = Planar> {
     /// Centre of mass [m].
-    pub position: DVec2,
-    /// Angle from the world axes to the body axes, accumulated over turns [rad].
-    pub angle: f64,
+    pub position: D::Vector,
+    /// Body axes to world axes: in the plane the angle, accumulated over turns [rad], in space a unit quaternion.
+    pub orientation: D::Orientation,
     /// Velocity of the centre of mass [m/s].
-    pub velocity: DVec2,
-    /// Rate of turning, counter-clockwise [rad/s].
-    pub angular_velocity: f64,
+    pub velocity: D::Vector,
+    /// Rate of turning in world axes, counter-clockwise in the plane [rad/s].
+    pub angular_velocity: D::Angular,
 }
 
 /// One touching point between two bodies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ContactRecord {
+#[serde(bound = "")]
+pub struct ContactRecord<D: RecordDim = Planar> {
     /// Index of the body with the smaller id.
     pub a: usize,
     /// Index of the other body.
     pub b: usize,
     /// Where they touch [m].
-    pub point: DVec2,
+    pub point: D::Vector,
     /// Unit vector from a to b [1].
-    pub normal: DVec2,
+    pub normal: D::Vector,
     /// Gap along the normal, negative when overlapping [m].
     pub separation: f64,
     /// Impulse on b along the normal, summed over the step [N·s].
     pub normal_impulse: f64,
-    /// Impulse on b along the tangent (n_y, −n_x), summed over the step [N·s].
-    pub tangent_impulse: f64,
+    /// Impulse on b along the surface, summed over the step: along the tangent (n_y, −n_x), in space a vector in world axes [N·s].
+    pub tangent_impulse: D::Tangent,
     /// Kind of contact: the name of a variant of the collision layer's closed list.
     pub kind: Cow<'static, str>,
 }
@@ -236,16 +215,24 @@ impl ContactRecord {
     pub fn tangent(&self) -> DVec2 {
         DVec2::new(self.normal.y, -self.normal.x)
     }
+}
+
+impl<D: RecordDim> ContactRecord<D> {
+    /// Returns the friction impulse on b, summed over the step [N·s].
+    pub fn friction_on_b(&self) -> D::Vector {
+        D::tangent_vector(self.normal, self.tangent_impulse)
+    }
 
     /// Returns the impulse on b, summed over the step [N·s].
-    pub fn impulse_on_b(&self) -> DVec2 {
-        self.normal * self.normal_impulse + self.tangent() * self.tangent_impulse
+    pub fn impulse_on_b(&self) -> D::Vector {
+        self.normal * self.normal_impulse + self.friction_on_b()
     }
 }
 
 /// Sums over the whole world after one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct AuditRow {
+#[serde(bound = "")]
+pub struct AuditRow<D: RecordDim = Planar> {
     /// Steps taken so far; 0 is the start.
     pub step: u64,
     /// Simulated time [s].
@@ -257,9 +244,9 @@ pub struct AuditRow {
     /// Kinetic plus potential energy [J].
     pub total: f64,
     /// Momentum [kg·m/s].
-    pub momentum: DVec2,
+    pub momentum: D::Vector,
     /// Angular momentum about the world origin [kg·m²/s].
-    pub angular_momentum: f64,
+    pub angular_momentum: D::Angular,
     /// Largest overlap of a touching pair, 0 when none overlaps [m].
     pub deepest_overlap: f64,
     /// Number of touching points.
@@ -270,7 +257,7 @@ pub struct AuditRow {
     pub residual: Option<f64>,
     /// The books of the step.
     #[serde(default)]
-    pub ledger: LedgerRecord,
+    pub ledger: Ledger,
 }
 
 /// Two bodies that began or ceased to touch.
@@ -299,7 +286,7 @@ pub struct Touch {
     pub sensor: bool,
 }
 
-impl Recording {
+impl<D: RecordDim> Recording<D> {
     /// Returns the index of the body of this name.
     pub fn body(&self, name: &str) -> Option<usize> {
         self.bodies.iter().position(|body| body.name == name)
@@ -311,27 +298,40 @@ impl Recording {
     }
 
     /// Returns the state of a body over time: (sample, state) for each sample in which it is in the world.
-    pub fn states(&self, body: usize) -> impl Iterator<Item = (&Sample, &BodyState)> {
+    pub fn states(&self, body: usize) -> impl Iterator<Item = (&Sample<D>, &BodyState<D>)> {
         self.samples.iter().filter_map(move |sample| Some((sample, sample.state(body)?)))
     }
 
     /// Returns the fingerprint of a sample: its step, then id, pose and velocity of each body in the order of ids.
-    pub fn fingerprint(&self, sample: &Sample) -> Fingerprint {
-        let mut present: Vec<(u64, &BodyState)> =
+    pub fn fingerprint(&self, sample: &Sample<D>) -> Fingerprint {
+        let mut present: Vec<(u64, &BodyState<D>)> =
             self.bodies.iter().enumerate().filter_map(|(index, body)| Some((body.id, sample.state(index)?))).collect();
         present.sort_by_key(|(id, _)| *id);
         let mut hasher = FingerprintHasher::new(sample.step);
         for (id, state) in present {
-            hasher.body(id, &state.numbers());
+            hasher.body(id, state.numbers().as_ref());
         }
         hasher.finish()
     }
 }
 
+impl<D: RecordDim> BodyState<D> {
+    /// Returns position, orientation, velocity, rate of turn: the order of the columns of `trajectory.csv` and of the fingerprint.
+    ///
+    /// In the plane x, y, angle, vx, vy, ω; in space x, y, z, qx, qy, qz, qw, vx, vy, vz, ωx, ωy, ωz.
+    pub fn numbers(&self) -> D::Numbers {
+        D::numbers(self)
+    }
+
+    /// Returns where it is and how it is turned.
+    pub fn pose(&self) -> Pose<D> {
+        Pose { position: self.position, rotation: D::rotation(&self.orientation) }
+    }
+}
+
 impl BodyState {
-    /// Returns x, y, angle, vx, vy, ω: the order of the columns of `trajectory.csv` and of the fingerprint.
-    pub fn numbers(&self) -> [f64; 6] {
-        let BodyState { position, angle, velocity, angular_velocity } = *self;
-        [position.x, position.y, angle, velocity.x, velocity.y, angular_velocity]
+    /// Returns the angle from the world axes, accumulated over turns [rad].
+    pub fn angle(&self) -> f64 {
+        self.orientation
     }
 }

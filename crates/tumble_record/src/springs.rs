@@ -1,9 +1,9 @@
 //! Keeps track of the springs of a simulation while it is recorded.
 
 use bevy_ecs::entity::Entity;
-use glam::DVec2;
 use tumble_sim::{Anchor, Spring};
 
+use crate::dim::RecordDim;
 use crate::recording::{AnchorRecord, SpringRecord};
 
 /// The springs that are in the world, and where each stands in the recording.
@@ -14,17 +14,17 @@ pub struct SpringLog {
 
 impl SpringLog {
     /// Adds springs that are new, and notes the time of those that are gone [s].
-    pub fn follow<'w>(
+    pub fn follow<'w, D: RecordDim>(
         &mut self,
-        springs: impl Iterator<Item = (Entity, &'w Spring<DVec2>)> + Clone,
+        springs: impl Iterator<Item = (Entity, &'w Spring<D::Vector>)> + Clone,
         body_of: impl Fn(Entity) -> Option<usize>,
         time: f64,
-        recorded: &mut Vec<SpringRecord>,
+        recorded: &mut Vec<SpringRecord<D>>,
     ) {
         if self.present.iter().map(|(entity, _)| *entity).eq(springs.clone().map(|(entity, _)| entity)) {
             return;
         }
-        let end = |anchor: &Anchor<DVec2>| match *anchor {
+        let end = |anchor: &Anchor<D::Vector>| match *anchor {
             Anchor::World(point) => Some(AnchorRecord { body: None, point }),
             Anchor::Body(entity, point) => body_of(entity).map(|body| AnchorRecord { body: Some(body), point }),
         };
@@ -46,7 +46,7 @@ impl SpringLog {
 
 #[cfg(test)]
 mod tests {
-    use glam::dvec2;
+    use glam::{DVec2, dvec2};
     use tumble_shape::Disc;
     use tumble_sim::{Amount, Part, Position, Settings, Simulation};
 

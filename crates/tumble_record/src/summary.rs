@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use crate::dim::RecordDim;
 use crate::fingerprint::Fingerprint;
 use crate::recording::Recording;
 
@@ -37,7 +38,7 @@ pub struct Summary {
 
 impl Summary {
     /// Sums up a recording whose last sample is the last step.
-    pub fn new(recording: &Recording, wall_time: Duration) -> Self {
+    pub fn new<D: RecordDim>(recording: &Recording<D>, wall_time: Duration) -> Self {
         let last = recording.samples.last();
         let steps = last.map_or(0, |sample| sample.step);
         let wall_time = wall_time.as_secs_f64();
@@ -68,7 +69,7 @@ impl Summary {
 ///
 /// In play is the larger of the largest kinetic energy and the range of the potential energy: unlike the total energy,
 /// neither depends on where the potential is called zero. Friction, damping and inelastic impacts lose energy rightly.
-pub fn energy_drift(recording: &Recording) -> Option<f64> {
+pub fn energy_drift<D: RecordDim>(recording: &Recording<D>) -> Option<f64> {
     let (first, last) = (recording.audit.first()?, recording.audit.last()?);
     let kinetic = recording.audit.iter().map(|row| row.kinetic).fold(0.0, f64::max);
     let highest = recording.audit.iter().map(|row| row.potential).fold(f64::NEG_INFINITY, f64::max);

@@ -3,6 +3,7 @@
 mod common;
 
 use glam::DVec2;
+use tumble_math::{Planar, Spatial};
 use tumble_record::{
     AnchorRecord, AuditRow, BodyKind, BodyRecord, BodyState, Channel, ChannelError, ContactRecord, JointForce,
     JointRecord, Recording, Sample, body_quantity_names, world_names,
@@ -26,14 +27,14 @@ fn sliding_block(block_first: bool) -> Recording {
     let floor = body(u64::from(block_first), "floor", BodyKind::Static);
     let moving = Some(BodyState {
         position: DVec2::new(1.0, 2.0),
-        angle: 0.25,
+        orientation: 0.25,
         velocity: DVec2::new(3.0, 4.0),
         angular_velocity: 2.0,
     });
     let resting = Some(BodyState::default());
     // Force of the floor on the block at each of two points: (−2.5, 10); the record holds what acts on b.
     let normal = if block_first { DVec2::NEG_Y } else { DVec2::Y };
-    let contact = ContactRecord {
+    let contact: ContactRecord = ContactRecord {
         a: 0,
         b: 1,
         point: DVec2::ZERO,
@@ -100,15 +101,31 @@ fn iterations_have_no_value_where_nothing_was_solved() {
 #[test]
 fn every_name_parses_has_a_title_and_shows_itself() {
     let recording = sliding_block(true);
+    let of_plane = |text: &str| match parse(text).series(&recording) {
+        Ok(series) => assert!(!series.is_empty(), "{text}"),
+        Err(error) => assert!(matches!(error, ChannelError::NotHere { .. }), "{error}"),
+    };
     for name in world_names() {
         assert_eq!(parse(name).to_string(), name);
-        parse(name).series(&recording).expect("of the world");
+        of_plane(name);
     }
     for name in body_quantity_names() {
         let text = format!("{name}:block");
         assert_eq!(parse(&text).to_string(), text);
         assert!(parse(&text).title().starts_with("block: "));
+        of_plane(&text);
     }
+}
+
+#[test]
+fn channels_of_space_are_refused_in_the_plane_and_the_other_way_round() {
+    let message = |error: Result<(), ChannelError>| error.expect_err("not here").to_string();
+    let plane = sliding_block(true);
+    assert_eq!(message(parse("z:block").check(&plane)), "channel `z:block` is of space, this scene is of the plane");
+    let space = Recording::<Spatial>::default();
+    let expected = "channel `omega` is of the plane, this scene is of space";
+    assert_eq!(message(parse("omega").check(&space)), expected);
+    assert!(parse("wx").check(&space).is_ok() && parse("speed").check(&space).is_ok());
 }
 
 #[test]
@@ -129,9 +146,10 @@ fn unknown_channel_lists_the_allowed_names_and_the_nearest() {
     assert_eq!(
         error("omeg:block").to_string(),
         "unknown channel `omeg` (did you mean `omega`?); of the world: kinetic, potential, total, momentum_x, momentum_y, \
-         angular_momentum, deepest_overlap, contacts, iterations, residual; of a body (NAME:BODY): x, y, angle, vx, vy, \
-         omega, speed, kinetic, normal_force, friction_force, contacts; of a joint (NAME:JOINT): joint_force, \
-         joint_force_x, joint_force_y, joint_torque"
+         momentum_z, angular_momentum, angular_momentum_x, angular_momentum_y, angular_momentum_z, deepest_overlap, contacts, \
+         iterations, residual; of a body (NAME:BODY): x, y, z, angle, vx, vy, vz, omega, wx, wy, wz, speed, kinetic, \
+         normal_force, friction_force, contacts; of a joint (NAME:JOINT): joint_force, joint_force_x, joint_force_y, \
+         joint_force_z, joint_torque"
     );
     assert!(matches!(error("zebra"), ChannelError::UnknownName { suggestion: None, .. }));
     assert!(matches!(error(""), ChannelError::UnknownName { .. }));
@@ -176,7 +194,7 @@ fn file_names_are_safe_and_distinct() {
 
 #[test]
 fn forces_of_joints_are_curves_from_the_first_step_on() {
-    let end = AnchorRecord { body: None, point: DVec2::ZERO };
+    let end: AnchorRecord = AnchorRecord { body: None, point: DVec2::ZERO };
     let joint = |name: &str| JointRecord {
         name: name.to_owned(),
         kind: "fixed".into(),
@@ -208,6 +226,6 @@ fn forces_of_joints_are_curves_from_the_first_step_on() {
         error.to_string(),
         "channel `joint_force:wled`: there is no joint `wled` (did you mean `weld`?); joints: pin, weld"
     );
-    let error = parse("joint_torque").check(&Recording::default()).expect_err("no joints");
+    let error = parse("joint_torque").check::<Planar>(&Recording::default()).expect_err("no joints");
     assert!(matches!(error, ChannelError::NotSoManyJoints { .. }));
 }

@@ -10,6 +10,8 @@ use crate::body::{
 };
 use crate::contact::PositionCorrections;
 use crate::fault::{Fault, Quantity};
+use crate::geometry::Geometry;
+use crate::ledger::Books;
 use crate::schedule::StepSystems;
 
 type VectorOf<D> = <D as Dim>::Vector;
@@ -103,9 +105,10 @@ pub fn remember_velocities<D: Dim>(
 /// x += v Δt, plus the displacements of the position filter; rotation by the implicit midpoint rule with L constant.
 ///
 /// Ballistic bodies (those with a [`PreviousVelocity`]) move with the mean of the velocities before and after the step.
-pub fn update_positions<D: Dim<Vector: InDim>>(
+pub fn update_positions<D: Geometry>(
     clock: Res<Clock>,
     corrections: Option<Res<PositionCorrections<D>>>,
+    mut books: Option<ResMut<Books<D>>>,
     mut bodies: Query<(
         &BodyIndex,
         &mut Position<VectorOf<D>>,
@@ -140,6 +143,14 @@ pub fn update_positions<D: Dim<Vector: InDim>>(
             rotation = rotation.turned(turn);
         }
         fault.check(x.is_finite() && rotation.is_finite(), index.0, Quantity::Position, StepSystems::UpdatePositions);
+        if let Some(books) = &mut books
+            && !D::Rotation::INERTIA_IS_CONSTANT
+            && inverse.0 != D::Inertia::ZERO
+        {
+            let twice_energy = |rotation: &D::Rotation, w: D::Angular| w.dot(inertia.0.in_world(rotation).apply(w));
+            let before = twice_energy(&orientation.0, angular_velocity.0);
+            books.count_turn(0.5 * (twice_energy(&rotation, turned) - before));
+        }
         position.bypass_change_detection().0 = x;
         orientation.bypass_change_detection().0 = rotation;
         angular_velocity.bypass_change_detection().0 = turned;

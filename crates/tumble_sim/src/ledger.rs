@@ -12,6 +12,7 @@
 //! Euler moves with v₁ and not with ½ (v₀ + v₁). What is left is the ledger error: round-off.
 
 use bevy_ecs::prelude::*;
+use serde::{Deserialize, Serialize};
 use tumble_math::{Dim, Inertia, Linear, Pose, Rotation};
 use tumble_solver::contact::tangential;
 use tumble_solver::joint::JointRow;
@@ -27,7 +28,7 @@ use crate::geometry::Geometry;
 use crate::{Clock, Settings};
 
 /// Work and violations of the last step. Filled where [`Simulation::keep_ledger`](crate::Simulation::keep_ledger) was called.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// Largest speed at which a contact that touches still closes after the step [m/s].
     pub normal_violation: f64,
@@ -49,7 +50,8 @@ pub struct Ledger {
     pub work_position_correction: f64,
     /// What moving with the velocities of the scheme gives besides [J].
     pub integrator_defect: f64,
-    /// What no line of the books explains [J].
+    /// What no line of the books explains: round-off [J].
+    #[serde(rename = "ledger_error")]
     pub error: f64,
     /// Contact points that push and stick.
     pub sticking: u32,
@@ -198,6 +200,11 @@ impl<D: Geometry> Books<D> {
 }
 
 impl<D: Geometry> Books<D> {
+    /// Counts what turning a body did to its kinetic energy, though L is kept: the rotation of a step is of second order.
+    pub(crate) fn count_turn(&mut self, gained: f64) {
+        self.ledger.integrator_defect += gained;
+    }
+
     /// Counts the work of what stands sticking points still after resting forces, as friction's.
     pub(crate) fn count_leftovers(&mut self, rows: &[JointRow<D>], before: &[SolverBody<D>], after: &[SolverBody<D>]) {
         let joints = self.ledger.work_joints;

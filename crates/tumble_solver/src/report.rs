@@ -1,7 +1,10 @@
 //! What a solver says about its work.
 
+use serde::{Deserialize, Serialize};
+
 /// How a solver ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Ending {
     /// The tolerance was met.
     #[default]

@@ -50,15 +50,18 @@ function posesAt(time, out = []) {
   return out;
 }
 
-/** Contacts of a sample: point, normal from a to b, normal and friction force on b, indices of a and b. */
+/** Numbers of a contact: point, impulse on b, normal impulse. */
+const contactLength = 2 * recording.origin.length + 1;
+
+/** Contacts of a sample: point, force on b, indices of a and b. */
 function contactsOf(sample) {
   const { contact_numbers: numbers, contact_pairs: pairs, contact_starts: starts, origin, dt } = recording;
-  const contacts = [];
+  const axes = origin.length, contacts = [];
   for (let i = starts[sample]; i < starts[sample + 1]; i++) {
-    const [x, y, nx, ny, normal, tangent] = numbers.subarray(6 * i, 6 * i + 6);
+    const row = numbers.subarray(contactLength * i, contactLength * (i + 1));
     contacts.push({
-      x: origin[0] + x, y: origin[1] + y,
-      fx: (normal * nx + tangent * ny) / dt, fy: (normal * ny - tangent * nx) / dt,
+      point: origin.map((middle, axis) => middle + row[axis]),
+      force: origin.map((_, axis) => row[axes + axis] / dt),
       a: pairs[2 * i], b: pairs[2 * i + 1],
     });
   }
@@ -69,18 +72,19 @@ function contactsOf(sample) {
 function normalImpulse(sample) {
   let sum = 0;
   for (let i = recording.contact_starts[sample]; i < recording.contact_starts[sample + 1]; i++) {
-    sum += recording.contact_numbers[6 * i + 4];
+    sum += recording.contact_numbers[contactLength * (i + 1) - 1];
   }
   return sum;
 }
 
 /** The force below which half of all impulse is given: many tiny ones count little, and one great one not for all. */
 function typicalForce() {
-  const { contact_numbers: numbers, dt } = recording;
-  const count = numbers.length / 6, stride = Math.max(1, Math.floor(count / 20000));
+  const { contact_numbers: numbers, origin, dt } = recording;
+  const count = numbers.length / contactLength, stride = Math.max(1, Math.floor(count / 20000));
   const forces = [];
   for (let i = 0; i < count; i += stride) {
-    const force = Math.hypot(numbers[6 * i + 4], numbers[6 * i + 5]) / dt;
+    const start = contactLength * i + origin.length;
+    const force = Math.hypot(...numbers.subarray(start, start + origin.length)) / dt;
     if (force > 0 && isFinite(force)) forces.push(force);
   }
   forces.sort((a, b) => a - b);

@@ -10,10 +10,13 @@ mod encode;
 
 use std::io::{self, Write};
 
-use glam::DVec2;
 use serde::Serialize;
+use tumble_math::{Linear, Vector};
 
-use crate::recording::{AuditRow, BodyKind, BodyRecord, JointRecord, Recording, Sample, ShapeRecord, SpringRecord};
+use crate::dim::RecordDim;
+use crate::recording::{
+    AuditRow, BodyKind, BodyRecord, BodyState, JointRecord, Recording, Sample, ShapeRecord, SpringRecord,
+};
 use crate::thin::keep_extremes;
 use encode::{floats, words};
 
@@ -30,7 +33,7 @@ const SCRIPTS: [&str; 4] =
     [include_str!("data.js"), include_str!("view.js"), include_str!("energy.js"), include_str!("player.js")];
 
 /// Writes `replay.html`.
-pub fn write_replay(recording: &Recording, mut out: impl Write) -> io::Result<()> {
+pub fn write_replay<D: RecordDim>(recording: &Recording<D>, mut out: impl Write) -> io::Result<()> {
     let data = serde_json::to_string(&Data::new(recording))?;
     // Names may contain `</script>` or `<!--`; a JSON string says `<` in another way too.
     let data = data.replace('<', "\\u003c");
@@ -46,25 +49,27 @@ pub fn write_replay(recording: &Recording, mut out: impl Write) -> io::Result<()
 
 /// What the page reads.
 #[derive(Serialize)]
-struct Data<'a> {
+#[serde(bound = "")]
+struct Data<'a, D: RecordDim> {
     scene: &'a str,
     about: &'a str,
     contact: &'a str,
     dt: f64,
-    bodies: Vec<Body<'a>>,
-    springs: &'a [SpringRecord],
-    joints: &'a [JointRecord],
+    gravity: D::Vector,
+    bodies: Vec<Body<'a, D>>,
+    springs: &'a [SpringRecord<D>],
+    joints: &'a [JointRecord<D>],
     /// Number of samples before thinning.
     recorded_samples: usize,
     steps: Vec<u64>,
     times: Vec<f64>,
     /// Middle of the scene; poses and contact points are relative to it [m].
-    origin: DVec2,
-    /// x, y, angle of each body in each sample; NaN while it is not in the world.
+    origin: D::Vector,
+    /// Position and orientation of each body in each sample; NaN while it is not in the world.
     poses: String,
     /// Index of the first contact of each sample, and the number of all.
     contact_starts: String,
-    /// x, y, n_x, n_y, normal and tangent impulse of each contact.
+    /// Point, impulse on b and normal impulse of each contact.
     contact_numbers: String,
     /// Indices of a and b of each contact.
     contact_pairs: String,
@@ -72,10 +77,11 @@ struct Data<'a> {
 }
 
 #[derive(Serialize)]
-struct Body<'a> {
+#[serde(bound = "")]
+struct Body<'a, D: RecordDim> {
     name: &'a str,
     kind: &'static str,
-    shapes: &'a [ShapeRecord],
+    shapes: &'a [ShapeRecord<D>],
 }
 
 /// Curves over the steps, thinned without losing a peak.
@@ -89,8 +95,8 @@ struct Audit {
     contacts: String,
 }
 
-impl<'a> Data<'a> {
-    fn new(recording: &'a Recording) -> Self {
+impl<'a, D: RecordDim> Data<'a, D> {
+    fn new(recording: &'a Recording<D>) -> Self {
         let samples = thinned(recording);
         let origin = middle(&samples);
         let contacts = || samples.iter().flat_map(|sample| &sample.contacts);
@@ -99,6 +105,7 @@ impl<'a> Data<'a> {
             about: &recording.about,
             contact: &recording.contact,
             dt: recording.dt,
+            gravity: recording.gravity,
             bodies: recording.bodies.iter().map(Body::new).collect(),
             springs: &recording.springs,
             joints: &recording.joints,
@@ -107,19 +114,15 @@ impl<'a> Data<'a> {
             times: samples.iter().map(|sample| sample.time).collect(),
             origin,
             poses: floats(samples.iter().flat_map(|sample| {
-                (0..recording.bodies.len()).flat_map(move |body| match sample.state(body) {
-                    Some(state) => [state.position.x - origin.x, state.position.y - origin.y, state.angle],
-                    None => [f64::NAN; 3],
-                })
+                (0..recording.bodies.len()).flat_map(move |body| pose_numbers(sample.state(body), origin))
             })),
             contact_starts: words([0].into_iter().chain(samples.iter().scan(0, |count, sample| {
                 *count += sample.contacts.len();
                 Some(*count)
             }))),
             contact_numbers: floats(contacts().flat_map(|contact| {
-                let point = contact.point - origin;
-                let normal = contact.normal;
-                [point.x, point.y, normal.x, normal.y, contact.normal_impulse, contact.tangent_impulse]
+                let (point, impulse) = (contact.point - origin, contact.impulse_on_b());
+                components(point).chain(components(impulse)).chain([contact.normal_impulse])
             })),
             contact_pairs: words(contacts().flat_map(|contact| [contact.a, contact.b])),
             audit: Audit::new(&recording.audit),
@@ -127,8 +130,8 @@ impl<'a> Data<'a> {
     }
 }
 
-impl<'a> Body<'a> {
-    fn new(body: &'a BodyRecord) -> Self {
+impl<'a, D: RecordDim> Body<'a, D> {
+    fn new(body: &'a BodyRecord<D>) -> Self {
         let kind = match body.kind {
             BodyKind::Dynamic => "dynamic",
             BodyKind::Kinematic => "kinematic",
@@ -139,11 +142,11 @@ impl<'a> Body<'a> {
 }
 
 impl Audit {
-    fn new(rows: &[AuditRow]) -> Self {
-        let column = |value: fn(&AuditRow) -> f64| rows.iter().map(value).collect::<Vec<f64>>();
+    fn new<D: RecordDim>(rows: &[AuditRow<D>]) -> Self {
+        let column = |value: fn(&AuditRow<D>) -> f64| rows.iter().map(value).collect::<Vec<f64>>();
         let curves = [column(|row| row.kinetic), column(|row| row.potential), column(|row| row.total)];
         let kept = keep_extremes(rows.len(), ENERGY_STRETCHES, &[&curves[0], &curves[1], &curves[2]]);
-        let encoded = |value: fn(&AuditRow) -> f64| floats(kept.iter().map(|&index| value(&rows[index])));
+        let encoded = |value: fn(&AuditRow<D>) -> f64| floats(kept.iter().map(|&index| value(&rows[index])));
         Self {
             times: kept.iter().map(|&index| rows[index].time).collect(),
             kinetic: encoded(|row| row.kinetic),
@@ -155,30 +158,53 @@ impl Audit {
     }
 }
 
+/// Components of a vector, in order.
+fn components<V: Vector>(vector: V) -> impl Iterator<Item = f64> {
+    (0..V::AXES).map(move |axis| vector[axis])
+}
+
+/// How many numbers a pose has.
+fn pose_length<D: RecordDim>() -> usize {
+    D::Vector::AXES + D::COLUMNS.orientation.len()
+}
+
+/// Position relative to the origin, then orientation.
+fn pose_numbers<D: RecordDim>(state: Option<&BodyState<D>>, origin: D::Vector) -> Vec<f64> {
+    let Some(state) = state else { return vec![f64::NAN; pose_length::<D>()] };
+    let mut numbers = state.numbers().as_ref()[..pose_length::<D>()].to_vec();
+    for (axis, number) in numbers.iter_mut().take(D::Vector::AXES).enumerate() {
+        *number -= origin[axis];
+    }
+    numbers
+}
+
 /// Returns every n-th sample and the last one, with the smallest n that keeps poses and contacts below their caps.
-fn thinned(recording: &Recording) -> Vec<&Sample> {
+fn thinned<D: RecordDim>(recording: &Recording<D>) -> Vec<&Sample<D>> {
     let count = recording.samples.len();
+    // The caps are those of the plane: in space poses and contacts have more numbers.
+    let most_poses = MOST_POSES * 3 / pose_length::<D>();
+    let most_contacts = MOST_CONTACTS * 5 / (2 * D::Vector::AXES + 1);
     let poses = count * recording.bodies.len();
-    let mut stride = poses.div_ceil(MOST_POSES).max(1);
+    let mut stride = poses.div_ceil(most_poses).max(1);
     let every = |stride: usize| {
         let kept = recording.samples.iter().step_by(stride);
         // The last sample shows how it ended.
         kept.chain(recording.samples.last().filter(|_| count > 0 && !(count - 1).is_multiple_of(stride)))
     };
     let contacts = |stride| every(stride).map(|sample| sample.contacts.len()).sum::<usize>();
-    while stride < count && contacts(stride) > MOST_CONTACTS {
+    while stride < count && contacts(stride) > most_contacts {
         stride += 1;
     }
     every(stride).collect()
 }
 
 /// Returns the middle of the box around all finite positions [m].
-fn middle(samples: &[&Sample]) -> DVec2 {
+fn middle<D: RecordDim>(samples: &[&Sample<D>]) -> D::Vector {
     let positions = samples.iter().flat_map(|sample| sample.states.iter().flatten()).map(|state| state.position);
     positions
         .filter(|position| position.is_finite())
-        .fold(None, |span: Option<(DVec2, DVec2)>, position| {
+        .fold(None, |span: Option<(D::Vector, D::Vector)>, position| {
             Some(span.map_or((position, position), |(low, high)| (low.min(position), high.max(position))))
         })
-        .map_or(DVec2::ZERO, |(low, high)| 0.5 * low + 0.5 * high)
+        .map_or(D::Vector::ZERO, |(low, high)| low * 0.5 + high * 0.5)
 }

@@ -362,7 +362,7 @@ class View {
     context.strokeStyle = color("--canvas");
     for (const contact of contacts) {
       context.beginPath();
-      context.arc(...this.toScreen(contact.x, contact.y), 3.6, 0, 7);
+      context.arc(...this.toScreen(...contact.point), 3.6, 0, 7);
       context.fill();
       context.stroke();
     }
@@ -371,9 +371,9 @@ class View {
   drawForces(contacts, arrowScale) {
     const pixels = (50 * arrowScale) / this.force;
     for (const contact of contacts) {
-      const [x, y] = this.toScreen(contact.x, contact.y);
+      const [x, y] = this.toScreen(...contact.point);
       for (const [body, sign] of [[contact.a, -1], [contact.b, 1]]) {
-        if (recording.bodies[body]?.kind === "dynamic") this.arrow(x, y, sign * contact.fx * pixels, -sign * contact.fy * pixels);
+        if (recording.bodies[body]?.kind === "dynamic") this.arrow(x, y, sign * contact.force[0] * pixels, -sign * contact.force[1] * pixels);
       }
     }
   }

@@ -13,6 +13,8 @@ use tumble_record::{
     SpringRecord, Touch, TouchPhase,
 };
 
+pub mod space;
+
 const DT: f64 = 1e-3;
 const GRAVITY: f64 = 9.81;
 
@@ -75,7 +77,7 @@ pub fn falling_rods(seconds: f64, every: u64) -> Recording {
 
     let start = |x, y, angle, angular_velocity| BodyState {
         position: DVec2::new(x, y),
-        angle,
+        orientation: angle,
         velocity: DVec2::new(0.3, 0.0),
         angular_velocity,
     };
@@ -125,7 +127,7 @@ fn advance(bodies: &[BodyRecord], states: &mut [BodyState]) -> Vec<ContactRecord
         if record.kind == BodyKind::Dynamic {
             let mut force = DVec2::new(0.0, -GRAVITY * record.mass);
             let mut torque = 0.0;
-            for arm in record.shapes.iter().flat_map(|shape| lowest_arms(&shape.geometry, state.angle)) {
+            for arm in record.shapes.iter().flat_map(|shape| lowest_arms(&shape.geometry, state.orientation)) {
                 let point = state.position + arm;
                 let velocity = state.velocity + state.angular_velocity * arm.perp();
                 let normal_force = (-4000.0 * point.y - 25.0 * velocity.y).max(0.0);
@@ -152,7 +154,7 @@ fn advance(bodies: &[BodyRecord], states: &mut [BodyState]) -> Vec<ContactRecord
             state.angular_velocity += torque / record.inertia * DT;
         }
         state.position += state.velocity * DT;
-        state.angle += state.angular_velocity * DT;
+        state.orientation += state.angular_velocity * DT;
     }
     contacts
 }

@@ -152,7 +152,7 @@ impl<'r> Run<'r> {
             Expectation::X(e) => number(e, |state| state.position.x),
             Expectation::Y(e) => number(e, |state| state.position.y),
             Expectation::Angle(e) => {
-                self.state(&e.of, when, e.into(), |state| Measured::Number(state.angle.to_degrees()))
+                self.state(&e.of, when, e.into(), |state| Measured::Number(state.angle().to_degrees()))
             }
             Expectation::Velocity(e) => self.state(&e.of, when, e.into(), |state| Measured::Vector(state.velocity)),
             Expectation::VelocityX(e) => number(e, |state| state.velocity.x),

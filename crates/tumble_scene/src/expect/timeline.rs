@@ -140,7 +140,7 @@ fn interpolate(from: &BodyState, to: &BodyState, share: f64) -> BodyState {
     let number = |from: f64, to: f64| from + share * (to - from);
     BodyState {
         position: from.position + (to.position - from.position) * share,
-        angle: number(from.angle, to.angle),
+        orientation: number(from.orientation, to.orientation),
         velocity: from.velocity + (to.velocity - from.velocity) * share,
         angular_velocity: number(from.angular_velocity, to.angular_velocity),
     }

@@ -43,8 +43,9 @@ fn contact(a: usize, b: usize, normal: DVec2, normal_impulse: f64, tangent_impul
 
 fn sample(step: u64) -> Sample {
     let time = step as f64 * DT;
-    let state =
-        |position, velocity, angle, angular_velocity| Some(BodyState { position, angle, velocity, angular_velocity });
+    let state = |position, velocity, orientation, angular_velocity| {
+        Some(BodyState { position, orientation, velocity, angular_velocity })
+    };
     let still = |x| state(dvec2(x, 0.0), DVec2::ZERO, 0.0, 0.0);
     let velocity = dvec2(3.0, -4.0);
     let states = vec![state(velocity * time, velocity, time, 1.0), still(1.0), still(2.0), still(0.0)];

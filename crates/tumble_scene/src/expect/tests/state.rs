@@ -120,7 +120,7 @@ fn window_without_samples_has_failed() {
 fn not_a_number_fails_every_comparison() {
     let mut recording = recording();
     *recording.samples[10].states[BOX].as_mut().unwrap() =
-        BodyState { position: DVec2::NAN, angle: f64::NAN, velocity: DVec2::NAN, angular_velocity: f64::NAN };
+        BodyState { position: DVec2::NAN, orientation: f64::NAN, velocity: DVec2::NAN, angular_velocity: f64::NAN };
     for expectation in [
         r#"X(of: "box", at: 1.0, is: 3.0, within: 1000)"#,
         r#"X(of: "box", at: 1.0, above: -1000)"#,
