@@ -38,6 +38,17 @@ pub trait Dim: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     ) -> (Self::Rotation, Self::Angular) {
         inertia::turn_freely(rotation, inertia, inverse_inertia, angular_velocity, dt)
     }
+
+    /// The constant rate of turn with which [`turn_freely`](Self::turn_freely) turns a body; `inertia` is in the axes of `rotation`.
+    fn midpoint_rate(
+        rotation: Self::Rotation,
+        inertia: &Self::Inertia,
+        inverse_inertia: &Self::Inertia,
+        angular_velocity: Self::Angular,
+        dt: f64,
+    ) -> Self::Angular {
+        inertia::midpoint_rate(rotation, inertia, inverse_inertia, angular_velocity, dt)
+    }
 }
 
 /// Mechanics in the plane: one angle, counter-clockwise.

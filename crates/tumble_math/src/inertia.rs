@@ -111,33 +111,51 @@ impl Inertia<DVec3, SpatialRotation> for SymmetricTensor {
 /// Advances a rotation by one step under constant angular momentum, and returns it with the rate of turn at its end.
 ///
 /// ```text
-/// ω½ = I⁻¹(R½) L,   R½ = exp(½Δt ω½) R,   R⁺ = exp(Δt ω½) R,   ω⁺ = I⁻¹(R⁺) L
+/// R⁺ = exp(Δt ω½) R,   ω⁺ = I⁻¹(R⁺) L                    ω½ the [midpoint rate](midpoint_rate)
 /// ```
 ///
-/// The implicit midpoint rule, solved by fixed-point iteration: second order, symmetric in time (so that the energy of free
-/// rotation does not drift), and L is kept to round-off because ω⁺ is computed from it. `inertia` and `inverse` are in the body
-/// frame. In the plane it is angle += ω Δt.
+/// The implicit midpoint rule: second order, symmetric in time (so that the energy of free rotation does not drift), and L is kept to
+/// round-off because ω⁺ is computed from it. `inertia` and `inverse` are in the body frame. In the plane it is angle += ω Δt.
 pub fn turn_freely<W, R, I>(rotation: R, inertia: &I, inverse: &I, angular_velocity: W, dt: f64) -> (R, W)
 where
     W: Angular,
     R: Rotation<W>,
     I: Inertia<W, R>,
 {
+    let turned = rotation.turned(midpoint_rate(rotation, inertia, inverse, angular_velocity, dt) * dt);
     if R::INERTIA_IS_CONSTANT {
-        return (rotation.turned(angular_velocity * dt), angular_velocity);
+        return (turned, angular_velocity);
     }
     let momentum = inertia.in_world(&rotation).apply(angular_velocity);
-    let velocity_at = |rotation: &R| inverse.in_world(rotation).apply(momentum);
+    (turned, inverse.in_world(&turned).apply(momentum))
+}
+
+/// The constant rate of turn that takes a rotation through one step under constant angular momentum, by the implicit midpoint rule.
+///
+/// ```text
+/// ω½ = I⁻¹(R½) L,   R½ = exp(½Δt ω½) R,   L = I(R) ω
+/// ```
+///
+/// Solved by fixed-point iteration. Inertia tensors that are given in world axes go with the rotation of identity.
+pub fn midpoint_rate<W, R, I>(rotation: R, inertia: &I, inverse: &I, angular_velocity: W, dt: f64) -> W
+where
+    W: Angular,
+    R: Rotation<W>,
+    I: Inertia<W, R>,
+{
+    if R::INERTIA_IS_CONSTANT {
+        return angular_velocity;
+    }
+    let momentum = inertia.in_world(&rotation).apply(angular_velocity);
     let mut middle = angular_velocity;
     // Converges like (ω Δt / 2)ᵏ; the bound only matters for steps that turn by a radian or more.
     for _ in 0..50 {
-        let next = velocity_at(&rotation.turned(middle * (0.5 * dt)));
+        let next = inverse.in_world(&rotation.turned(middle * (0.5 * dt))).apply(momentum);
         let change = (next - middle).length();
         middle = next;
         if change <= 1e-15 * middle.length() {
             break;
         }
     }
-    let turned = rotation.turned(middle * dt);
-    (turned, velocity_at(&turned))
+    middle
 }

@@ -23,6 +23,9 @@ pub trait Rotation<W: Angular>: Copy + Debug + Default + PartialEq + Send + Sync
     /// This rotation followed by a turn about a fixed world axis: exp(angle) R [rad].
     fn turned(&self, angle: W) -> Self;
 
+    /// This rotation in the axes of a frame: frame⁻¹ R.
+    fn seen_from(&self, frame: &Self) -> Self;
+
     /// Whether no part of it is infinite or NaN.
     fn is_finite(&self) -> bool;
 }
@@ -98,6 +101,10 @@ impl Rotation<f64> for PlanarRotation {
     fn turned(&self, angle: f64) -> Self {
         // A body that does not turn keeps its bits, and costs no trigonometry.
         if angle == 0.0 { *self } else { Self::from_angle(self.angle + angle) }
+    }
+
+    fn seen_from(&self, frame: &Self) -> Self {
+        Self::from_angle(self.angle - frame.angle)
     }
 
     fn is_finite(&self) -> bool {
@@ -183,6 +190,11 @@ impl Rotation<DVec3> for SpatialRotation {
         let ratio = if full < 1e-4 { 0.5 - full * full / 48.0 } else { sin / full };
         let v = angle * ratio;
         let product = DQuat::from_xyzw(v.x, v.y, v.z, cos) * self.quaternion;
+        Self { quaternion: product * (1.0 / product.length()) }
+    }
+
+    fn seen_from(&self, frame: &Self) -> Self {
+        let product = frame.quaternion.conjugate() * self.quaternion;
         Self { quaternion: product * (1.0 / product.length()) }
     }
 

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::world::World;
 use tumble_math::Linear;
-use tumble_sim::{Anchor, BodyIndex, BodyTable, Clock, Joint, JointKind, JointProblem, JointTable};
+use tumble_sim::{Anchor, BodyIndex, BodyTable, Clock, Joint, JointMotion, JointProblem, JointTable};
 
 use crate::dim::RecordDim;
 use crate::recording::{AnchorRecord, JointForce, JointRecord, Sample};
@@ -61,10 +61,7 @@ impl JointLog {
                     kind: Cow::Borrowed(joint.kind.word()),
                     a,
                     b,
-                    axis: match joint.kind {
-                        JointKind::Prismatic { axis } => Some(axis),
-                        _ => None,
-                    },
+                    axis: joint.kind.axis(),
                     from: time,
                     until: None,
                 });
@@ -91,10 +88,11 @@ impl JointLog {
             let order = table.entries().iter().position(|entry| entry.entity == present.entity)?;
             let entry = &table.entries()[order];
             let (impulse, about_centre) = problem.given(order);
-            let torque = match entry.kind {
+            let torque = if entry.kind.holds_directions() {
+                about_centre - D::torque(problem.arm_b(entry), impulse)
+            } else {
                 // A force through the anchor, and nothing else.
-                JointKind::Revolute | JointKind::Distance { .. } => D::Angular::ZERO,
-                _ => about_centre - D::torque(problem.arm_b(entry), impulse),
+                D::Angular::ZERO
             };
             Some(JointForce {
                 joint: present.index,
@@ -112,7 +110,7 @@ mod tests {
     use bevy_ecs::name::Name;
     use glam::{DVec2, dvec2};
     use tumble_shape::Rod;
-    use tumble_sim::{Amount, Part, Position, Settings, Simulation};
+    use tumble_sim::{Amount, JointKind, Part, Position, Settings, Simulation};
 
     use super::*;
     use crate::Record;

@@ -57,14 +57,6 @@ pub enum BodyError {
         /// Name of the joint.
         joint: String,
     },
-    /// A joint that holds a direction, in space, where only ball and distance joints exist so far.
-    #[error(
-        "joint \"{joint}\" holds a direction, which joints in space cannot do yet: use a revolute (ball) or distance joint"
-    )]
-    JointNotInSpace {
-        /// Its name.
-        joint: String,
-    },
     /// A length or an axis that no joint can have.
     #[error("{quantity} of joint \"{joint}\" is {value}; it must be positive and finite")]
     BadJoint {

@@ -54,9 +54,6 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
         + Sync
         + 'static;
 
-    /// Whether fixed and prismatic joints exist.
-    const JOINTS_HOLD_DIRECTIONS: bool;
-
     /// Mass, centre and inertia of a shape; `None` for one without bounds.
     fn mass_properties(shape: &Self::Shape, amount: Amount) -> Option<MassProperties<Self>>;
 
@@ -89,9 +86,6 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
 
     /// The normal of a manifold, from a to b.
     fn normal(manifold: &Self::Manifold) -> Self::Vector;
-
-    /// By how much b is turned against a.
-    fn turn_between(a: &Self::Rotation, b: &Self::Rotation) -> Self::Angular;
 
     /// Appends the rows of a joint whose bodies have these rotations.
     ///

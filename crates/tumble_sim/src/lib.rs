@@ -35,7 +35,7 @@ pub use engine::Engine;
 pub use error::{BodyError, StepError, UnknownBody};
 pub use force::{Anchor, AppliedForce, Axes, Course, GravityScale, LinearDrag, QuadraticDrag, Spring};
 pub use geometry::Geometry;
-pub use joint::{Joint, JointKind, JointProblem, JointTable};
+pub use joint::{Joint, JointKind, JointMotion, JointProblem, JointTable, SpatialJointKind};
 pub use ledger::Ledger;
 pub use notice::Notices;
 pub use part::{Amount, Groups, MaterialId, Part, PartOf, Parts, Response};

@@ -1,6 +1,6 @@
 //! Joints as rows: each keeps one number at zero, with an impulse of either sign.
 //!
-//! A joint of the plane is one to three rows. One row is
+//! A joint is one to three rows in the plane, one to six in space. One row is
 //!
 //! ```text
 //! C = 0                                                            [m] or [rad]
@@ -9,8 +9,9 @@
 //! K = J M⁻¹ Jᵀ = l · (m_a⁻¹ + m_b⁻¹) l + γ_a · I_a⁻¹ γ_a + γ_b · I_b⁻¹ γ_b
 //! ```
 //!
-//! An impulse λ in the row is +l λ, +γ_b λ on b and the opposite on a. The kinds differ only in how they make their rows: [`revolute`],
-//! [`distance`], [`fixed`], [`prismatic`]. The world is a body that cannot be moved, with an index like any other.
+//! An impulse λ in the row is +l λ, +γ_b λ on b and −l λ, −γ_a λ on a. The kinds differ only in how they make their rows: [`revolute`] and
+//! [`distance`] in both dimensions, [`fixed`] and [`prismatic`] in the plane, and their siblings of space in [`spatial`]. The world is a
+//! body that cannot be moved, with an index like any other.
 //!
 //! [`JointBlock`] solves all rows of a scene at once and exactly.
 
@@ -19,6 +20,7 @@ pub mod distance;
 pub mod fixed;
 pub mod prismatic;
 pub mod revolute;
+pub mod spatial;
 
 pub use block::{JointBlock, JointReport};
 

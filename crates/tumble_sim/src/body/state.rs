@@ -6,20 +6,25 @@ use tumble_math::{Angular, Dim, Planar, Spatial, Vector};
 
 use super::mass::{BodyInertia, InverseInertia, InverseMass, Mass};
 use super::table::BodyIndex;
+use crate::joint::{JointKind, JointMotion, SpatialJointKind};
 use crate::structure::mark_changed;
 
 /// A vector that knows whether it belongs to the plane or to space.
 pub trait InDim: Vector {
     /// Where it belongs.
     type Dim: Dim<Vector = Self>;
+    /// What joints there let two bodies do.
+    type JointKind: JointMotion<Self>;
 }
 
 impl InDim for DVec2 {
     type Dim = Planar;
+    type JointKind = JointKind;
 }
 
 impl InDim for DVec3 {
     type Dim = Spatial;
+    type JointKind = SpatialJointKind;
 }
 
 type RotationOf<V> = <<V as InDim>::Dim as Dim>::Rotation;

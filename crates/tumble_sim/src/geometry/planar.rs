@@ -18,7 +18,6 @@ impl Geometry for Planar {
     type Manifold = PlanarManifold;
     type PerPoint<T: Copy + std::fmt::Debug + Default + Send + Sync + 'static> = [T; 2];
 
-    const JOINTS_HOLD_DIRECTIONS: bool = true;
 
     fn mass_properties(shape: &PlanarShape, amount: Amount) -> Option<MassProperties<Self>> {
         match amount {
@@ -80,10 +79,6 @@ impl Geometry for Planar {
         manifold.normal
     }
 
-    fn turn_between(a: &PlanarRotation, b: &PlanarRotation) -> f64 {
-        b.angle() - a.angle()
-    }
-
     fn push_joint_rows(
         joint: &JointEntry<Self>,
         ends: &JointEnds<Self>,
@@ -92,7 +87,7 @@ impl Geometry for Planar {
         rows: &mut Vec<JointRow<Self>>,
     ) -> Result<(), JointError> {
         let [a, b] = rotations;
-        let turned = || Self::turn_between(a, b) - joint.turned;
+        let turned = || b.angle() - a.angle() - joint.held.angle();
         match joint.kind {
             JointKind::Revolute => revolute::push_rows(ends, bodies, rows),
             JointKind::Distance { length } => distance::push_rows(ends, length, bodies, rows)?,

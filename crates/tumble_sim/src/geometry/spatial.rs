@@ -2,27 +2,29 @@
 
 use std::fmt::Debug;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use tumble_collision::{
     ContactPoint, SpatialManifold, SpatialOrientedBox, SpatialQuery, Volume, collide_spatial as collide,
 };
-use tumble_math::{Pose, Spatial, SpatialRotation};
+use tumble_math::{Dim, Matrix, Pose, Rotation, Spatial, SpatialRotation};
 use tumble_shape::{MassProperties, SpatialShape};
 use tumble_solver::SolverBody;
-use tumble_solver::joint::{JointEnds, JointError, JointRow, distance, revolute};
+use tumble_solver::joint::{JointEnds, JointError, JointRow, distance, revolute, spatial};
 
 use super::{ContactQuery, Geometry, Posed};
 use crate::engine::Engine;
-use crate::joint::{JointEntry, JointKind};
+use crate::joint::{JointEntry, SpatialJointKind};
 use crate::part::Amount;
+
+/// Appends the rows of a joint that holds directions, given by a frame in world axes as a and as b carry it.
+type PushFrameRows =
+    fn(&JointEnds<Spatial>, [&DMat3; 2], &[SolverBody<Spatial>], &mut Vec<JointRow<Spatial>>);
 
 impl Geometry for Spatial {
     type Shape = SpatialShape;
     type OrientedBox = SpatialOrientedBox;
     type Manifold = SpatialManifold;
     type PerPoint<T: Copy + Debug + Default + Send + Sync + 'static> = [T; 4];
-
-    const JOINTS_HOLD_DIRECTIONS: bool = false;
 
     fn mass_properties(shape: &SpatialShape, amount: Amount) -> Option<MassProperties<Self>> {
         match amount {
@@ -81,22 +83,29 @@ impl Geometry for Spatial {
         manifold.normal
     }
 
-    fn turn_between(a: &SpatialRotation, b: &SpatialRotation) -> DVec3 {
-        a.turn_to(b).rotation_vector()
-    }
-
-    /// A revolute joint is a ball joint here: it holds a point and leaves all turning free.
     fn push_joint_rows(
         joint: &JointEntry<Self>,
         ends: &JointEnds<Self>,
-        _: [&SpatialRotation; 2],
+        [a, b]: [&SpatialRotation; 2],
         bodies: &[SolverBody<Self>],
         rows: &mut Vec<JointRow<Self>>,
     ) -> Result<(), JointError> {
+        // A frame along the axis, as each of the bodies has carried it along since the joint was made.
+        let carried = |axis: DVec3| {
+            let frame = Self::contact_frame(axis.normalize());
+            let of_b = DMat3::from_columns(|i| joint.held.unrotate(frame.col(i)));
+            [a.to_matrix() * frame, b.to_matrix() * of_b]
+        };
+        let mut hold = |push: PushFrameRows, axis: DVec3| {
+            let [of_a, of_b] = carried(axis);
+            push(ends, [&of_a, &of_b], bodies, rows);
+        };
         match joint.kind {
-            JointKind::Revolute => revolute::push_rows(ends, bodies, rows),
-            JointKind::Distance { length } => distance::push_rows(ends, length, bodies, rows)?,
-            JointKind::Fixed | JointKind::Prismatic { .. } => unreachable!("refused with the table of joints"),
+            SpatialJointKind::Revolute { axis } => hold(spatial::revolute::push_rows, axis),
+            SpatialJointKind::Fixed => hold(spatial::fixed::push_rows, DVec3::X),
+            SpatialJointKind::Prismatic { axis } => hold(spatial::prismatic::push_rows, axis),
+            SpatialJointKind::Spherical => revolute::push_rows(ends, bodies, rows),
+            SpatialJointKind::Distance { length } => distance::push_rows(ends, length, bodies, rows)?,
         }
         Ok(())
     }

@@ -11,16 +11,18 @@
 //! (Ryckaert, Ciccotti and Berendsen 1977): second order in the positions at whole steps, and symplectic, so that energy does not drift. The penalty model has springs and dampers
 //! instead.
 
+mod kind;
 mod problem;
 mod systems;
 mod table;
 
 use bevy_ecs::prelude::*;
-use tumble_math::Vector;
 
+use crate::body::InDim;
 use crate::force::Anchor;
 use crate::structure::mark_changed;
 
+pub use kind::{JointKind, JointMotion, SpatialJointKind};
 pub use problem::JointProblem;
 pub use systems::{apply_joint_springs, correct_curvature};
 pub use table::{JointEntry, JointTable};
@@ -31,42 +33,11 @@ pub(crate) use table::prepare_joints;
 /// A joint, an entity of its own. A name beside it is what outputs call it.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[component(on_insert = mark_changed, on_discard = mark_changed)]
-pub struct Joint<V: Vector> {
+pub struct Joint<V: InDim> {
     /// Where it holds the first body.
     pub a: Anchor<V>,
     /// Where it holds the second body.
     pub b: Anchor<V>,
-    /// What it lets the two do.
-    pub kind: JointKind<V>,
-}
-
-/// What a joint lets two bodies do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum JointKind<V> {
-    /// Turn about the common anchor; see [`tumble_solver::joint::revolute`].
-    Revolute,
-    /// Anything that leaves the anchors this far apart; see [`tumble_solver::joint::distance`].
-    Distance {
-        /// Length [m].
-        length: f64,
-    },
-    /// Nothing; see [`tumble_solver::joint::fixed`]. The angle between the bodies stays as it is when the joint is made.
-    Fixed,
-    /// Slide along an axis; see [`tumble_solver::joint::prismatic`]. The angle between the bodies stays as it is when the joint is made.
-    Prismatic {
-        /// Direction of sliding, in the frame of the first body.
-        axis: V,
-    },
-}
-
-impl<V> JointKind<V> {
-    /// Its word in scenes and outputs.
-    pub fn word(&self) -> &'static str {
-        match self {
-            Self::Revolute => "revolute",
-            Self::Distance { .. } => "distance",
-            Self::Fixed => "fixed",
-            Self::Prismatic { .. } => "prismatic",
-        }
-    }
+    /// What it lets the two do: a [`JointKind`] in the plane, a [`SpatialJointKind`] in space.
+    pub kind: V::JointKind,
 }

@@ -1,7 +1,7 @@
 //! Joints as the rows that contact models take along.
 
 use bevy_ecs::prelude::*;
-use tumble_math::{Dim, Linear, Pose, Rotation};
+use tumble_math::{Dim, Inertia, Linear, Pose, Rotation};
 use tumble_solver::SolverBody;
 use tumble_solver::joint::{JointBlock, JointEnds, JointRow, Joints};
 
@@ -17,6 +17,10 @@ pub struct JointProblem<D: Geometry> {
     block: JointBlock<D>,
     /// By rank, the world last.
     poses: Vec<Pose<D>>,
+    /// The bodies that joints hold.
+    held: Vec<Held<D>>,
+    /// `poses` after a move; only those of held bodies are kept up.
+    poses_after: Vec<Pose<D>>,
     /// Sum of the impulses of this step on the second body of each joint: along world axes at its anchor, and the angular part about its centre of
     /// mass.
     given: Vec<(D::Vector, D::Angular)>,
@@ -37,6 +41,8 @@ impl<D: Geometry> Default for JointProblem<D> {
             first_rows: Vec::new(),
             block: JointBlock::default(),
             poses: Vec::new(),
+            held: Vec::new(),
+            poses_after: Vec::new(),
             given: Vec::new(),
             before_move: Vec::new(),
             given_before: Vec::new(),
@@ -45,6 +51,14 @@ impl<D: Geometry> Default for JointProblem<D> {
             speeds: Vec::new(),
         }
     }
+}
+
+/// A body that joints hold.
+#[derive(Clone, Copy, Debug)]
+struct Held<D: Geometry> {
+    rank: u32,
+    /// I and I⁻¹ in world axes; `None` for a body that is not turned by torques.
+    inertia: Option<[D::Inertia; 2]>,
 }
 
 /// Most rounds of the search for the velocities that end the step on the joints: enough for each to halve the error.
@@ -60,7 +74,7 @@ impl<D: Geometry> JointProblem<D> {
         self.rows.is_empty()
     }
 
-    /// The rows, one to three per joint.
+    /// The rows of all joints, in the order of their table.
     pub fn rows(&self) -> &[JointRow<D>] {
         &self.rows
     }
@@ -119,6 +133,11 @@ impl<D: Geometry> JointProblem<D> {
         }
         self.first_rows.push(self.rows.len() as u32);
         self.block.prepare(bodies, &self.rows);
+        let mut ranks: Vec<u32> = table.entries().iter().flat_map(|entry| entry.bodies).collect();
+        ranks.sort_unstable();
+        ranks.dedup();
+        self.held.clear();
+        self.held.extend(ranks.into_iter().map(|rank| Held::of(rank, &bodies[rank as usize])));
     }
 
     /// The joints for a contact model; `None` without joints.
@@ -237,13 +256,18 @@ impl<D: Geometry> JointProblem<D> {
         displacements: Option<&[SolverBody<D>]>,
         dt: f64,
     ) {
-        let mut poses: Vec<Pose<D>> = self.poses.iter().zip(bodies).map(|(pose, body)| moved(pose, body, dt)).collect();
-        if let Some(displacements) = displacements {
-            poses.iter_mut().zip(displacements).for_each(|(pose, shift)| *pose = moved(pose, shift, 1.0));
+        self.poses_after.clone_from(&self.poses);
+        for held in &self.held {
+            let rank = held.rank as usize;
+            let pose = &mut self.poses_after[rank];
+            *pose = held.moved(pose, &bodies[rank], dt);
+            if let Some(shift) = displacements.map(|displacements| &displacements[rank]) {
+                *pose = moved(pose, shift.velocity, shift.angular_velocity);
+            }
         }
         self.moved.clear();
         for entry in table.entries() {
-            push_rows(entry, &poses, bodies, &mut self.moved);
+            push_rows(entry, &self.poses_after, bodies, &mut self.moved);
         }
     }
 
@@ -261,8 +285,27 @@ impl<D: Geometry> JointProblem<D> {
     }
 }
 
-fn moved<D: Dim>(pose: &Pose<D>, body: &SolverBody<D>, dt: f64) -> Pose<D> {
-    Pose { position: pose.position + body.velocity * dt, rotation: pose.rotation.turned(body.angular_velocity * dt) }
+impl<D: Geometry> Held<D> {
+    fn of(rank: u32, body: &SolverBody<D>) -> Self {
+        let inverse = body.inverse_inertia;
+        let inertia = if D::Rotation::INERTIA_IS_CONSTANT { None } else { inverse.try_inverse() };
+        Self { rank, inertia: inertia.map(|inertia| [inertia, inverse]) }
+    }
+
+    /// Where the body is after a step without forces, as the integrator moves it.
+    fn moved(&self, pose: &Pose<D>, body: &SolverBody<D>, dt: f64) -> Pose<D> {
+        let rate = match &self.inertia {
+            None => body.angular_velocity,
+            Some([inertia, inverse]) => {
+                D::midpoint_rate(D::Rotation::default(), inertia, inverse, body.angular_velocity, dt)
+            }
+        };
+        moved(pose, body.velocity * dt, rate * dt)
+    }
+}
+
+fn moved<D: Dim>(pose: &Pose<D>, shift: D::Vector, turn: D::Angular) -> Pose<D> {
+    Pose { position: pose.position + shift, rotation: pose.rotation.turned(turn) }
 }
 
 /// Appends the rows of a joint; a distance joint whose anchors coincide has none for as long as they do.

@@ -5,8 +5,10 @@ use std::collections::HashSet;
 use bevy_ecs::name::Name;
 use bevy_ecs::prelude::*;
 
-use super::{Joint, JointKind};
-use crate::body::{BodyTable, Orientation};
+use tumble_math::Rotation;
+
+use super::{Joint, JointMotion};
+use crate::body::{BodyTable, InDim, Orientation};
 use crate::error::BodyError;
 use crate::force::Anchor;
 use crate::geometry::Geometry;
@@ -19,13 +21,13 @@ pub struct JointEntry<D: Geometry> {
     /// Its name; `joint-<number>` where none was given.
     pub name: String,
     /// What it lets the bodies do.
-    pub kind: JointKind<D::Vector>,
+    pub kind: <D::Vector as InDim>::JointKind,
     /// Ranks of the two bodies; the number of bodies stands for the world.
     pub bodies: [u32; 2],
     /// The anchors: in body frames, or in world axes [m].
     pub anchors: [D::Vector; 2],
-    /// By how much b was turned against a when the joint was made [rad].
-    pub(crate) turned: D::Angular,
+    /// Orientation of b in the frame of a when the joint was made.
+    pub(crate) held: D::Rotation,
 }
 
 /// All joints: in the order of their bodies, then of their names.
@@ -54,7 +56,7 @@ impl<D: Geometry> JointTable<D> {
     }
 }
 
-/// Rebuilds the table; joints that were in it keep the angle that they hold.
+/// Rebuilds the table; joints that were in it keep the orientation that they hold.
 pub(crate) fn prepare_joints<D: Geometry>(world: &mut World) -> Result<(), BodyError> {
     let mut joints = world.query::<(Entity, &Joint<D::Vector>, Option<&Name>)>();
     let found: Vec<(Entity, Joint<D::Vector>, Option<String>)> = joints
@@ -76,32 +78,20 @@ pub(crate) fn prepare_joints<D: Geometry>(world: &mut World) -> Result<(), BodyE
         if bodies[0] == bodies[1] {
             return Err(BodyError::JointToItself { joint: name });
         }
-        let before = known.iter().find(|entry| entry.entity == entity).map(|entry| entry.turned);
-        let mut kind = joint.kind;
-        if let JointKind::Distance { length } = kind
-            && !(length > 0.0 && length.is_finite())
-        {
-            return Err(BodyError::BadJoint { joint: name, quantity: "length", value: length });
+        if let Some((quantity, value)) = joint.kind.bad_quantity() {
+            return Err(BodyError::BadJoint { joint: name, quantity, value });
         }
-        let turned = before.unwrap_or_else(|| {
+        let before = known.iter().find(|entry| entry.entity == entity).map(|entry| entry.held);
+        let held = before.unwrap_or_else(|| {
             let [a, b] = [joint.a, joint.b].map(|anchor| rotation_of::<D>(world, anchor));
-            D::turn_between(&a, &b)
+            b.seen_from(&a)
         });
         // The first of the two is the one with the smaller rank where that changes nothing, so that writing them the other way round changes no bit.
-        if bodies[0] > bodies[1] && matches!(kind, JointKind::Revolute | JointKind::Distance { .. }) {
+        if bodies[0] > bodies[1] && joint.kind.is_symmetric() {
             bodies.reverse();
             anchors.reverse();
         }
-        if !D::JOINTS_HOLD_DIRECTIONS && matches!(kind, JointKind::Fixed | JointKind::Prismatic { .. }) {
-            return Err(BodyError::JointNotInSpace { joint: name });
-        }
-        if let JointKind::Prismatic { axis } = &mut kind {
-            let length = tumble_math::Linear::length(*axis);
-            if !(length > 0.0 && length.is_finite()) {
-                return Err(BodyError::BadJoint { joint: name, quantity: "axis", value: length });
-            }
-        }
-        entries.push(JointEntry { entity, name, kind, bodies, anchors, turned });
+        entries.push(JointEntry { entity, name, kind: joint.kind, bodies, anchors, held });
     }
     entries.sort_by(|one, other| (one.bodies, &one.name).cmp(&(other.bodies, &other.name)));
     let pairs =
