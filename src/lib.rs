@@ -83,7 +83,8 @@
 //!
 //! # 4. Joints
 //!
-//! A [`Joint`](sim::Joint) is an entity that holds two bodies, or a body and the world, together: revolute, distance, fixed, prismatic. It holds to
+//! A [`Joint`](sim::Joint) is an entity that holds two bodies, or a body and the world, together: revolute, distance, fixed, prismatic; in
+//! space a [`SpatialJointKind`](sim::SpatialJointKind), spherical besides. It holds to
 //! round-off under every model but the penalty model, where it is a spring. Example 12 builds a mechanism of four.
 //!
 //! ```
@@ -192,8 +193,7 @@
 //! One-by-one impulses answer the simultaneous impacts of one body in an order, and the order shows: a rod that lands flat on both ends with
 //! ε < 1 leaves with a little spin (example 08). Penalty contact sinks and creeps. A body that moves further in one step than
 //! [contacts are made beforehand](sim::Settings::speculative_limit) may pass through thin things, and is [reported](sim::Notices). Newton's restitution with
-//! friction can create energy in rare configurations. In space there are no scene files, recordings and joints that hold
-//! directions yet.
+//! friction can create energy in rare configurations. In space there are no scene files and recordings yet.
 //!
 //! ```
 //! use tumble::prelude::*;

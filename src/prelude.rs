@@ -18,9 +18,9 @@ pub use tumble_shape::{
 };
 pub use tumble_sim::{
     Amount, Anchor, AngularVelocity, AppliedForce, Axes, BodyId, BodyKind, CentreOverride, Clock, ContactModel, Course,
-    Force, GravityScale, Groups, InertiaOverride, Integrator, Joint, JointKind, JointMotion, Keyframe, Keyframes, Ledger,
-    LinearDrag, LinearVelocity, Lock, LockedAxes, Mass, MassOverride, Orientation, Part, PenaltyLaw, PenaltySettings,
-    Pinned, Position, QuadraticDrag, Response, Settings, Simulation, SpatialJointKind, Spring, SpringDamperSettings, StepSystems, Torque,
-    VelocityLcpSettings,
+    Force, GravityScale, Groups, InertiaOverride, Integrator, Joint, JointKind, JointMotion, Keyframe, Keyframes,
+    Ledger, LinearDrag, LinearVelocity, Lock, LockedAxes, Mass, MassOverride, Orientation, Part, PenaltyLaw,
+    PenaltySettings, Pinned, Position, QuadraticDrag, Response, Settings, Simulation, SpatialJointKind, Spring,
+    SpringDamperSettings, StepSystems, Torque, VelocityLcpSettings,
 };
 pub use tumble_solver::Surface;

@@ -9,8 +9,8 @@ use support::{G, assert_near, body, bouncing, direction, floor, simulation};
 use tumble_math::{Planar, Rotation, Spatial, SpatialRotation, SymmetricTensor, trig};
 use tumble_shape::{Cuboid, HalfSpace, SpatialRod, SpatialShape, Sphere};
 use tumble_sim::{
-    Amount, AngularVelocity, BodyKind, ContactModel, InertiaOverride, Joint, JointKind, LinearVelocity, Orientation,
-    Part, Position, Settings, Simulation,
+    Amount, AngularVelocity, BodyKind, ContactModel, InertiaOverride, LinearVelocity, Orientation, Part, Position,
+    Settings, Simulation,
 };
 use tumble_solver::Surface;
 
@@ -206,35 +206,4 @@ fn a_rod_of_the_plane_moves_alike_in_space() {
         assert!((flat.position() - seen).length() < 1e-9, "{} and {seen} at {} s", flat.position(), plane.time());
         assert!(deep.position().y.abs() < 1e-12);
     }
-}
-
-#[test]
-fn a_ball_joint_holds_its_point() {
-    for contact in RIGID {
-        let mut simulation = Simulation::with_settings(settings(contact, 1e-3));
-        let start = Start { velocity: dvec3(0.0, 0.3, 0.0), ..Start::at(dvec3(0.5, 0.0, 0.0)) };
-        let bob = spawn(&mut simulation, "bob", sphere(0.1), 1.0, &start);
-        let joint = Joint {
-            a: tumble_sim::Anchor::World(DVec3::ZERO),
-            b: tumble_sim::Anchor::Body(bob, dvec3(-0.5, 0.0, 0.0)),
-            kind: JointKind::Revolute,
-        };
-        simulation.spawn(joint);
-        for _ in 0..2000 {
-            simulation.step().unwrap();
-            let bob = simulation.body("bob").unwrap();
-            let held = bob.position() + bob.rotation().rotate(dvec3(-0.5, 0.0, 0.0));
-            assert!(held.length() < 1e-9, "{contact:?}: {held}");
-        }
-    }
-}
-
-#[test]
-fn joints_that_hold_directions_are_refused_in_space() {
-    let mut simulation = Simulation::with_settings(settings(ContactModel::Impulse, 1e-3));
-    let bob = spawn(&mut simulation, "bob", sphere(0.1), 1.0, &Start::at(DVec3::ZERO));
-    let anchors = (tumble_sim::Anchor::World(DVec3::ZERO), tumble_sim::Anchor::Body(bob, DVec3::ZERO));
-    simulation.spawn((Name::new("weld"), Joint { a: anchors.0, b: anchors.1, kind: JointKind::Fixed }));
-    let error = simulation.step().unwrap_err().to_string();
-    assert!(error.contains("joint \"weld\" holds a direction"), "{error}");
 }

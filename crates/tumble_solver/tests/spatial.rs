@@ -1,7 +1,9 @@
-//! The same models in space: a table on four legs, a ball on a rough floor.
+//! The same models in space: a table on four legs, a ball on a rough floor, joints that hold directions.
 
-use glam::{DVec3, dvec3};
-use tumble_math::{Dim, Spatial, SymmetricTensor};
+use glam::{DMat3, DVec3, dvec3};
+use proptest::prelude::*;
+use tumble_math::{Dim, Inertia, Rotation, Spatial, SpatialRotation, SymmetricTensor};
+use tumble_solver::joint::{JointBlock, JointEnds, JointRow, revolute, spatial};
 use tumble_solver::resting_lcp::{Acceleration, Gap, NormalCarrier, RestingLcp, RestingSettings, RestingStatus};
 use tumble_solver::velocity_lcp::{Rebound, Restitution, VelocityLcp, VelocitySettings};
 use tumble_solver::{ContactRow, Ending, Slip, SolverBody, Surface};
@@ -113,4 +115,140 @@ fn d8_friction_of_a_sliding_block_is_the_same_in_every_direction() {
         let expected = (2.0 - 0.4 * 9.81 * dt) * heading;
         assert!((bodies[1].velocity - expected).length() < 1e-12, "{degrees}: {}", bodies[1].velocity);
     }
+}
+
+/// Two bodies with a constant velocity and rate of turn, each with its copy of a frame, seen at a time.
+struct Motion {
+    velocities: [DVec3; 2],
+    rates: [DVec3; 2],
+    arms: [DVec3; 2],
+    /// Wrong from the start, by some tenths of a radian.
+    frames: [SpatialRotation; 2],
+}
+
+impl Motion {
+    fn bodies(&self) -> [Body; 2] {
+        [0, 1].map(|i| Body {
+            velocity: self.velocities[i],
+            angular_velocity: self.rates[i],
+            ..body(2.0, dvec3(0.3, 0.5, 0.7))
+        })
+    }
+
+    fn rows(&self, t: f64) -> Vec<JointRow<Spatial>> {
+        let arm = |i: usize| SpatialRotation::from_rotation_vector(self.rates[i] * t).rotate(self.arms[i]);
+        let ends = JointEnds::at(
+            (0, self.velocities[0] * t, arm(0)),
+            (1, dvec3(0.2, 0.3, -0.4) + self.velocities[1] * t, arm(1)),
+        );
+        let [of_a, of_b] = [0, 1].map(|i| self.frames[i].turned(self.rates[i] * t).to_matrix());
+        let (frames, bodies, mut rows) = ([&of_a, &of_b], self.bodies(), Vec::new());
+        spatial::revolute::push_rows(&ends, frames, &bodies, &mut rows);
+        spatial::fixed::push_rows(&ends, frames, &bodies, &mut rows);
+        spatial::prismatic::push_rows(&ends, frames, &bodies, &mut rows);
+        rows
+    }
+}
+
+fn vector(size: f64) -> impl Strategy<Value = DVec3> {
+    (-size..size, -size..size, -size..size).prop_map(|(x, y, z)| dvec3(x, y, z))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(7), ..ProptestConfig::default() })]
+
+    #[test]
+    fn speed_and_drift_are_the_derivatives_of_the_error(
+        arms in (vector(1.0), vector(1.0)),
+        velocities in (vector(1.0), vector(1.0)),
+        rates in (vector(1.0), vector(1.0)),
+        frames in (vector(3.0), vector(0.3)),
+    ) {
+        let of_a = SpatialRotation::from_rotation_vector(frames.0);
+        let motion = Motion {
+            velocities: [velocities.0, velocities.1],
+            rates: [rates.0, rates.1],
+            arms: [arms.0, arms.1],
+            frames: [of_a, of_a.turned(frames.1)],
+        };
+        let h = 1e-4;
+        let (before, now, after) = (motion.rows(-h), motion.rows(0.0), motion.rows(h));
+        for ((b, n), a) in before.iter().zip(&now).zip(&after) {
+            // Central differences: h² of higher derivatives (a few tens), and rounding / h² = 1e-8 in the second.
+            prop_assert!((n.speed(&motion.bodies()) - (a.error - b.error) / (2.0 * h)).abs() < 1e-6);
+            prop_assert!((n.drift - (a.error - 2.0 * n.error + b.error) / (h * h)).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn joints_in_space_keep_momentum_and_take_energy(
+        velocities in (vector(3.0), vector(3.0)),
+        rates in (vector(3.0), vector(3.0)),
+        turned in vector(3.0),
+        point in vector(1.0),
+    ) {
+        let places = [DVec3::ZERO, dvec3(1.0, 0.2, 0.1)];
+        let frame = SpatialRotation::from_rotation_vector(turned).to_matrix();
+        let kinds: [fn(&JointEnds<Spatial>, [&DMat3; 2], &[Body], &mut Vec<JointRow<Spatial>>); 4] = [
+            |ends, _, bodies, rows| revolute::push_rows(ends, bodies, rows),
+            spatial::revolute::push_rows,
+            spatial::fixed::push_rows,
+            spatial::prismatic::push_rows,
+        ];
+        for push in kinds {
+            let mut bodies = [(velocities.0, rates.0), (velocities.1, rates.1)].map(|(velocity, angular_velocity)| {
+                Body { velocity, angular_velocity, ..body(2.0, dvec3(0.3, 0.5, 0.7)) }
+            });
+            let momenta = |bodies: &[Body]| {
+                let own = |body: &Body| body.inverse_inertia.try_inverse().unwrap().apply(body.angular_velocity);
+                let angular = |body: &Body, at: DVec3| own(body) + at.cross(body.velocity * 2.0);
+                let energy = |body: &Body| body.velocity.length_squared() + 0.5 * body.angular_velocity.dot(own(body));
+                (
+                    (bodies[0].velocity + bodies[1].velocity) * 2.0,
+                    angular(&bodies[0], places[0]) + angular(&bodies[1], places[1]),
+                    energy(&bodies[0]) + energy(&bodies[1]),
+                )
+            };
+            let (p, l, energy) = momenta(&bodies);
+            let ends = JointEnds::at((0, places[0], point), (1, places[1], point - places[1]));
+            let mut rows = Vec::new();
+            push(&ends, [&frame, &frame], &bodies, &mut rows);
+            let mut block = JointBlock::default();
+            block.prepare(&bodies, &rows);
+            let report = block.stop(&mut bodies, &mut rows);
+            prop_assert_eq!(report.redundant, 0);
+            // Speeds and momenta of some units, to rounding.
+            prop_assert!(report.residual < 1e-13);
+            let (p_after, l_after, energy_after) = momenta(&bodies);
+            prop_assert!((p_after - p).length() < 1e-12 && (l_after - l).length() < 1e-12);
+            prop_assert!(energy_after <= energy * (1.0 + 1e-14));
+        }
+    }
+}
+
+#[test]
+fn a_second_hinge_in_line_is_redundant_and_one_askew_is_named() {
+    let bodies = [Body::default(), body(10.0, dvec3(2.0, 3.0, 4.0))];
+    let mut rows = Vec::new();
+    let frame = DMat3::from_cols(DVec3::Z, DVec3::X, DVec3::Y);
+    for height in [-0.5, 0.5] {
+        let ends = JointEnds::at((0, DVec3::ZERO, DVec3::Z * height), (1, DVec3::X, dvec3(-1.0, 0.0, height)));
+        spatial::revolute::push_rows(&ends, [&frame, &frame], &bodies, &mut rows);
+    }
+    let mut block = JointBlock::default();
+    block.prepare(&bodies, &rows);
+    let mut moving = bodies;
+    moving[1].velocity = dvec3(0.3, 2.0, -1.0);
+    let report = block.stop(&mut moving, &mut rows);
+    // A door: it keeps its turning about the vertical and nothing else.
+    assert_eq!(report.redundant, 5);
+    assert!(report.residual < 1e-14 && report.unreachable < 1e-14, "{report:?}");
+    assert!((moving[1].velocity - DVec3::Z.cross(DVec3::X) * moving[1].angular_velocity.z).length() < 1e-14);
+    // The upper one wants to be 0.2 m further along y than the door reaches: a row of it says so.
+    rows[6].error += 0.2;
+    let mut displacements = bodies;
+    let report = block.correct(&mut displacements, &rows);
+    assert!(report.unreachable_row.is_some_and(|row| row >= 5), "{report:?}");
+    assert!(report.unreachable > 0.05, "{report:?}");
+    assert!(displacements.iter().all(|d| d.velocity.is_finite() && d.angular_velocity.is_finite()));
 }

@@ -18,7 +18,6 @@ impl Geometry for Planar {
     type Manifold = PlanarManifold;
     type PerPoint<T: Copy + std::fmt::Debug + Default + Send + Sync + 'static> = [T; 2];
 
-
     fn mass_properties(shape: &PlanarShape, amount: Amount) -> Option<MassProperties<Self>> {
         match amount {
             Amount::Density(density) => shape.mass_properties(density),

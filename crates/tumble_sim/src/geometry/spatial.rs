@@ -17,8 +17,7 @@ use crate::joint::{JointEntry, SpatialJointKind};
 use crate::part::Amount;
 
 /// Appends the rows of a joint that holds directions, given by a frame in world axes as a and as b carry it.
-type PushFrameRows =
-    fn(&JointEnds<Spatial>, [&DMat3; 2], &[SolverBody<Spatial>], &mut Vec<JointRow<Spatial>>);
+type PushFrameRows = fn(&JointEnds<Spatial>, [&DMat3; 2], &[SolverBody<Spatial>], &mut Vec<JointRow<Spatial>>);
 
 impl Geometry for Spatial {
     type Shape = SpatialShape;
