@@ -9,7 +9,7 @@
 //! where the work of gravity and of springs is on the books as well, but only moves energy between K and V. Every impulse λ on a row does the work
 //! λ · ½ (u_before + u_after), with u the velocity of the row, exactly; every force f that acts for Δt does f · ½ (v_before + v_after) Δt.
 //! The *integrator defect* is the difference between the work that gravity and springs did to the velocities and what the potential lost by the moves: symplectic
-//! Euler moves with v₁ and not with ½ (v₀ + v₁); and in space what a step of free rotation does to the kinetic energy. What is left is the ledger error: round-off.
+//! Euler moves with v₁ and not with ½ (v₀ + v₁). What is left is the ledger error: round-off.
 
 use bevy_ecs::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -336,9 +336,7 @@ pub(crate) fn before_joints<D: Geometry>(mut books: ResMut<Books<D>>, bodies: St
 /// Counts what joints have done since.
 pub(crate) fn after_joints<D: Geometry>(mut books: ResMut<Books<D>>, bodies: StateQuery<D>) {
     let books = &mut *books;
-    let now = kinetic::<D>(&bodies);
-    books.ledger.work_joints += now - books.kinetic;
-    books.kinetic = now;
+    books.ledger.work_joints += kinetic::<D>(&bodies) - books.kinetic;
 }
 
 /// Counts the work of the forces, now that velocities have taken them in.
@@ -394,7 +392,7 @@ pub(crate) fn look_at_contacts<D: Geometry>(
     }
 }
 
-/// Counts what the moves did to the potential, and in space to the energy of free rotation, which the midpoint rule keeps only nearly.
+/// Counts what the moves did to the potential.
 pub(crate) fn after_moves<D: Geometry>(
     settings: Res<Settings<D>>,
     corrections: Res<PositionCorrections<D>>,
@@ -409,9 +407,6 @@ pub(crate) fn after_moves<D: Geometry>(
     ledger.work_position_correction = moved - without;
     ledger.integrator_defect += without - books.potential + ledger.work_gravity + ledger.work_springs;
     books.potential = moved;
-    let now = kinetic::<D>(&bodies);
-    ledger.integrator_defect += now - books.kinetic;
-    books.kinetic = now;
 }
 
 /// Closes the books of a part of the step.

@@ -13,13 +13,12 @@ pub trait JointMotion<V>: Copy + Debug + PartialEq + Send + Sync + 'static {
     fn axis(&self) -> Option<V>;
 
     /// Whether it keeps the bodies from turning against each other about some axis, and so has a torque of its own.
+    ///
+    /// The others are symmetric: the two bodies can change places.
     fn holds_directions(&self) -> bool;
 
     /// A length or an axis that no joint can have, by its word, with its value or length.
     fn bad_quantity(&self) -> Option<(&'static str, f64)>;
-
-    /// Whether the two bodies can change places without changing the joint.
-    fn is_symmetric(&self) -> bool;
 }
 
 /// What a joint of the plane lets two bodies do.
@@ -82,7 +81,7 @@ impl JointMotion<DVec2> for JointKind {
     }
 
     fn holds_directions(&self) -> bool {
-        !self.is_symmetric()
+        matches!(self, Self::Fixed | Self::Prismatic { .. })
     }
 
     fn bad_quantity(&self) -> Option<(&'static str, f64)> {
@@ -91,10 +90,6 @@ impl JointMotion<DVec2> for JointKind {
             Self::Distance { length } => bad_length(*length),
             Self::Prismatic { axis } => axis.try_normalize().is_none().then(|| ("axis", axis.length())),
         }
-    }
-
-    fn is_symmetric(&self) -> bool {
-        matches!(self, Self::Revolute | Self::Distance { .. })
     }
 }
 
@@ -117,7 +112,7 @@ impl JointMotion<DVec3> for SpatialJointKind {
     }
 
     fn holds_directions(&self) -> bool {
-        !self.is_symmetric()
+        matches!(self, Self::Revolute { .. } | Self::Fixed | Self::Prismatic { .. })
     }
 
     fn bad_quantity(&self) -> Option<(&'static str, f64)> {
@@ -128,10 +123,6 @@ impl JointMotion<DVec3> for SpatialJointKind {
                 axis.try_normalize().is_none().then(|| ("axis", axis.length()))
             }
         }
-    }
-
-    fn is_symmetric(&self) -> bool {
-        matches!(self, Self::Spherical | Self::Distance { .. })
     }
 }
 

@@ -87,7 +87,7 @@ pub(crate) fn prepare_joints<D: Geometry>(world: &mut World) -> Result<(), BodyE
             b.seen_from(&a)
         });
         // The first of the two is the one with the smaller rank where that changes nothing, so that writing them the other way round changes no bit.
-        if bodies[0] > bodies[1] && joint.kind.is_symmetric() {
+        if bodies[0] > bodies[1] && !joint.kind.holds_directions() {
             bodies.reverse();
             anchors.reverse();
         }
