@@ -5,10 +5,12 @@ mod spatial;
 
 use std::fmt::Debug;
 
+use glam::{DQuat, DVec3};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use tumble_sim::Geometry as Shapes;
 
+use crate::mesh::{Detail, Mesh};
 use crate::recording::{BodyState, ContactRecord};
 
 pub use planar::Geometry;
@@ -57,6 +59,15 @@ pub trait RecordDim: Shapes<Vector: Plain, Angular: Plain, Inertia: Plain> {
 
     /// Position, orientation, velocity, rate of turn: the order of the columns of `trajectory.csv` and of the fingerprint.
     fn numbers(state: &BodyState<Self>) -> Self::Numbers;
+
+    /// The vector in space; z = 0 in the plane.
+    fn embed(vector: Self::Vector) -> DVec3;
+
+    /// The orientation in space; about z in the plane.
+    fn quaternion(orientation: &Self::Orientation) -> DQuat;
+
+    /// Surface of a shape, for pictures.
+    fn mesh(outline: &Self::Outline, detail: &Detail) -> Mesh;
 
     /// The angle of an orientation; only in the plane [rad].
     fn angle(orientation: &Self::Orientation) -> Option<f64>;

@@ -31,7 +31,7 @@ pub enum FileAction {
     Write,
     /// Putting finished content under its own name.
     Replace,
-    /// Removing what an interrupted run left.
+    /// Removing what an earlier run left.
     Remove,
 }
 
@@ -47,7 +47,7 @@ impl fmt::Display for FileAction {
 }
 
 impl FileError {
-    fn new(action: FileAction, path: &Path, reason: io::Error) -> Self {
+    pub(crate) fn new(action: FileAction, path: &Path, reason: io::Error) -> Self {
         Self { action, path: path.to_owned(), reason }
     }
 }

@@ -6,7 +6,7 @@
 //! - tables: [`tables`] writes `trajectory.csv`, `contacts.csv`, `audit.csv`, `touches.csv` and, for scenes with joints, `joints.csv`,
 //! - numbers: [`Summary`] is `summary.json`, [`Fingerprint`] condenses a state into 32 hex digits,
 //! - curves: a [`Channel`] names a quantity (`y:ball`), [`plot`] draws it,
-//! - pictures that move: [`replay`] is one HTML file that opens offline,
+//! - pictures that move: [`replay`] is one HTML file that opens offline, [`gltf`] an animation for viewers of models, [`frames`] are PNG files and a GIF,
 //! - files: [`OutputFolder`] makes all of them appear whole or not at all.
 //!
 //! SI units, world frame unless said otherwise; angles in radians, accumulated over turns.
@@ -15,7 +15,10 @@ mod channel;
 mod dim;
 mod files;
 mod fingerprint;
+pub mod frames;
+pub mod gltf;
 mod joints;
+pub mod mesh;
 mod names;
 mod output;
 pub mod plot;
@@ -24,6 +27,7 @@ mod recording;
 pub mod replay;
 mod sampling;
 mod springs;
+mod stage;
 mod summary;
 pub mod tables;
 mod thin;

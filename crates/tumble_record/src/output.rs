@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use crate::channel::{Channel, ChannelError};
-use crate::dim::{Home, RecordDim};
+use crate::dim::RecordDim;
 use crate::files::{Completeness, FileError, OutputFolder};
 use crate::plot::Plot;
 use crate::recording::Recording;
@@ -52,8 +52,6 @@ pub fn write_run<D: RecordDim>(
     for (name, plot) in &plots {
         files.add(name, |out| out.write_all(plot.to_svg().as_bytes()))?;
     }
-    if D::HOME == Home::Plane {
-        files.add("replay.html", |out| write_replay(recording, out))?;
-    }
+    files.add("replay.html", |out| write_replay(recording, out))?;
     Ok(files.publish()?)
 }

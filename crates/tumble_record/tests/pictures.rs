@@ -1,9 +1,14 @@
-//! Plots say what they show and survive any data.
+//! Plots, frames and models say what they show and survive any data.
 
 mod common;
 
+use std::collections::BTreeSet;
+
+use tumble_math::{Planar, Spatial};
+use tumble_record::frames::{FrameSettings, Frames, Picture, write_frames};
+use tumble_record::gltf::to_gltf;
 use tumble_record::plot::Plot;
-use tumble_record::{Channel, Series};
+use tumble_record::{Channel, RecordDim, Recording, Series};
 
 fn series(label: &str, values: &[f64]) -> Series {
     let times = (0..values.len()).map(|index| index as f64 * 0.1).collect();
@@ -92,6 +97,190 @@ fn million_points_make_a_small_file() {
     assert!(svg.len() < 200_000, "four points per pixel at most: {} bytes", svg.len());
 }
 
+const SMALL: FrameSettings = FrameSettings { count: 3, width: 160, height: 90 };
+
+/// How many pixels of a picture differ from those of another.
+fn different(one: &Picture, other: &Picture) -> usize {
+    one.pixels.chunks(3).zip(other.pixels.chunks(3)).filter(|(one, other)| one != other).count()
+}
+
+fn frames_show_the_motion<D: RecordDim>(recording: &Recording<D>) {
+    let frames = Frames::new(recording, SMALL);
+    let pictures: Vec<Picture> = (0..frames.count()).map(|number| frames.picture(number)).collect();
+    let empty = Frames::new(&Recording { samples: Vec::new(), ..recording.clone() }, SMALL).picture(0);
+    for picture in &pictures {
+        assert_eq!((picture.width, picture.height, picture.pixels.len()), (160, 90, 3 * 160 * 90));
+        // Bodies that fill the picture from margin to margin, though most of it may be sky and ground.
+        assert!(different(picture, &empty) > 160 * 90 / 50, "bodies are seen");
+        let colors: BTreeSet<&[u8]> = picture.pixels.chunks(3).collect();
+        assert!(colors.len() > 100, "light and shadow: {} colours", colors.len());
+    }
+    assert!(different(&pictures[0], &pictures[2]) > 160 * 90 / 100, "bodies have moved");
+    assert_eq!(Frames::new(recording, SMALL).picture(1), pictures[1], "the same bytes again");
+}
+
+#[test]
+fn frames_of_the_plane_show_the_motion() {
+    frames_show_the_motion(&common::falling_rods(1.0, 10));
+}
+
+#[test]
+fn frames_of_space_show_the_motion() {
+    frames_show_the_motion(&common::space::assortment(1.0, 4).expect("a sound world"));
+}
+
+#[test]
+fn frames_of_nothing_are_sky() {
+    for picture in [
+        Frames::new(&Recording::<Planar>::default(), SMALL).picture(0),
+        Frames::new(&Recording::<Spatial>::default(), SMALL).picture(2),
+    ] {
+        let rows: Vec<&[u8]> = picture.pixels.chunks(3 * 160).collect();
+        assert!(rows.iter().all(|row| row.chunks(3).all(|pixel| pixel == &row[..3])), "each row in one colour");
+        assert!(rows[0] != rows[89], "brighter towards the horizon");
+    }
+}
+
+#[test]
+fn frames_are_files_that_read_back_and_are_the_same_bytes_again() -> Result<(), Box<dyn std::error::Error>> {
+    let recording = common::space::assortment(0.5, 4)?;
+    let folders = [tempfile::tempdir()?, tempfile::tempdir()?];
+    for folder in &folders {
+        let paths = write_frames(&recording, SMALL, folder.path())?;
+        let names: Vec<_> = paths.iter().map(|path| path.strip_prefix(folder.path()).expect("in the folder")).collect();
+        let expected = ["frames/0000.png", "frames/0001.png", "frames/0002.png", "scene.gif"];
+        assert!(names.iter().zip(expected).all(|(name, expected)| name.as_os_str() == expected), "{names:?}");
+        for (number, path) in paths[..3].iter().enumerate() {
+            let mut reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path)?)).read_info()?;
+            let mut pixels = vec![0; reader.output_buffer_size().ok_or("it fits into memory")?];
+            reader.next_frame(&mut pixels)?;
+            assert_eq!(pixels, Frames::new(&recording, SMALL).picture(number).pixels);
+        }
+        let mut decoder = gif::DecodeOptions::new().read_info(std::fs::File::open(&paths[3])?)?;
+        assert_eq!((decoder.width(), decoder.height(), decoder.repeat()), (160, 90, gif::Repeat::Infinite));
+        // Half a second in two intervals of 25 hundredths, and as long for the last picture.
+        let mut delays = Vec::new();
+        while let Some(frame) = decoder.read_next_frame()? {
+            delays.push(frame.delay);
+        }
+        assert_eq!(delays, [25, 25, 25]);
+    }
+    for name in ["frames/0001.png", "scene.gif"] {
+        let bytes = folders.each_ref().map(|folder| std::fs::read(folder.path().join(name)).expect("it is there"));
+        assert!(bytes[0] == bytes[1], "{name}");
+    }
+    Ok(())
+}
+
+/// The bytes of a data address.
+fn decoded(uri: &str) -> Vec<u8> {
+    const DIGITS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let (_, text) = uri.split_once("base64,").expect("base64");
+    let (mut bytes, mut bits, mut count) = (Vec::new(), 0_u32, 0);
+    for letter in text.bytes().filter(|letter| *letter != b'=') {
+        bits = bits << 6 | DIGITS.iter().position(|digit| *digit == letter).expect("a digit") as u32;
+        count += 6;
+        if count >= 8 {
+            count -= 8;
+            bytes.push((bits >> count) as u8);
+        }
+    }
+    bytes
+}
+
+/// Checks a file as a viewer would read it; returns how many nodes move.
+fn check_gltf<D: RecordDim>(recording: &Recording<D>) -> usize {
+    let text = to_gltf(recording);
+    // Validates everything that the format demands of the parts and of what they refer to.
+    let file = gltf::Gltf::from_slice(text.as_bytes()).expect("valid glTF");
+    let buffers: Vec<Vec<u8>> = file
+        .buffers()
+        .map(|buffer| match buffer.source() {
+            gltf::buffer::Source::Uri(uri) => decoded(uri),
+            gltf::buffer::Source::Bin => panic!("all is in one file"),
+        })
+        .collect();
+    let data = |buffer: gltf::Buffer<'_>| buffers.get(buffer.index()).map(Vec::as_slice);
+    assert!(file.buffers().all(|buffer| buffer.length() == buffers[buffer.index()].len()));
+    for mesh in file.meshes() {
+        for primitive in mesh.primitives() {
+            let reader = primitive.reader(data);
+            let positions: Vec<[f32; 3]> = reader.read_positions().expect("positions").collect();
+            let bounds = primitive.bounding_box();
+            for axis in 0..3 {
+                let along = positions.iter().map(|position| position[axis]);
+                assert_eq!(along.clone().fold(f32::INFINITY, f32::min), bounds.min[axis]);
+                assert_eq!(along.fold(f32::NEG_INFINITY, f32::max), bounds.max[axis]);
+            }
+            for normal in reader.read_normals().expect("normals") {
+                let length = normal.iter().map(|part| part * part).sum::<f32>().sqrt();
+                assert!((length - 1.0).abs() < 1e-6, "rounding of 32 bits: {length}");
+            }
+            let corners = reader.read_indices().expect("triangles").into_u32();
+            assert!(corners.into_iter().all(|corner| (corner as usize) < positions.len()));
+        }
+    }
+    let mut moving = BTreeSet::new();
+    for channel in file.animations().flat_map(|animation| animation.channels().collect::<Vec<_>>()) {
+        let reader = channel.reader(data);
+        let times: Vec<f32> = reader.read_inputs().expect("times").collect();
+        assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "time goes on");
+        let node = channel.target().node();
+        let body = recording.body(node.name().expect("a name")).expect("nodes are bodies");
+        let states: Vec<_> = recording.states(body).map(|(_, state)| state).collect();
+        match reader.read_outputs().expect("values") {
+            gltf::animation::util::ReadOutputs::Translations(places) => {
+                let places: Vec<[f32; 3]> = places.collect();
+                assert_eq!(places.len(), times.len());
+                for (place, state) in places.iter().zip(&states) {
+                    assert_eq!(*place, D::embed(state.position).as_vec3().to_array());
+                }
+                moving.insert(node.index());
+            }
+            gltf::animation::util::ReadOutputs::Rotations(turns) => {
+                let turns: Vec<[f32; 4]> = turns.into_f32().collect();
+                assert_eq!(turns.len(), times.len());
+                let dot = |a: &[f32; 4], b: &[f32; 4]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f32>();
+                assert!(turns.windows(2).all(|pair| dot(&pair[0], &pair[1]) > 0.0), "the shorter way");
+                for (turn, state) in turns.iter().zip(&states) {
+                    let exact = D::quaternion(&state.orientation).as_quat().to_array();
+                    // The same rotation, whichever sign; rounding of 32 bits.
+                    assert!((dot(turn, &exact).abs() - 1.0).abs() < 1e-6, "{turn:?} {exact:?}");
+                }
+            }
+            _ => assert_eq!(channel.target().property(), gltf::animation::Property::Scale),
+        }
+    }
+    moving.len()
+}
+
+#[test]
+fn gltf_is_valid_and_has_the_samples_of_every_moving_body() {
+    let space = common::space::assortment(1.0, 4).expect("a sound world");
+    assert_eq!(check_gltf(&space), 11, "all but the floor");
+    // The lift, four thrown bodies and the one that falls straight.
+    assert_eq!(check_gltf(&common::falling_rods(1.0, 10)), 6);
+    assert_eq!(check_gltf(&Recording::<Planar>::default()), 0);
+    assert_eq!(check_gltf(&Recording::<Spatial>::default()), 0);
+}
+
+#[test]
+fn gltf_turns_the_way_up_to_y_and_hides_who_is_away() {
+    let mut recording = common::space::assortment(0.1, 1).expect("a sound world");
+    recording.samples[3].states[4] = None;
+    recording.gravity = -glam::DVec3::Z * 9.81;
+    assert_eq!(check_gltf(&recording), 11);
+    let file = gltf::Gltf::from_slice(to_gltf(&recording).as_bytes()).expect("valid glTF");
+    let root = file.scenes().next().expect("a scene").nodes().next().expect("a root");
+    let (_, turn, _) = root.transform().decomposed();
+    let up = glam::Quat::from_array(turn) * glam::Vec3::Z;
+    assert!((up - glam::Vec3::Y).length() < 1e-6, "{up}");
+    let scales = file.animations().flat_map(|animation| animation.channels().collect::<Vec<_>>());
+    let scales = scales.filter(|channel| channel.target().property() == gltf::animation::Property::Scale);
+    let name = recording.bodies[4].name.clone();
+    assert!(scales.map(|channel| channel.target().node().name().map(str::to_owned)).eq([Some(name)]));
+}
+
 /// Writes the pictures to the folder in `TUMBLE_PICTURES`, to look at them.
 #[test]
 #[ignore = "for the eye; set TUMBLE_PICTURES to a folder"]
@@ -103,5 +292,16 @@ fn pictures_to_look_at() {
     for name in ["y", "normal_force:star", "friction_force:T", "angle:L", "contacts", "omega"] {
         let channel: Channel = name.parse().expect("a channel");
         write(&format!("{}.svg", channel.file_stem()), Plot::channel(&recording, &channel).expect("a body").to_svg());
+    }
+    let space = common::space::assortment(3.0, 2).expect("a sound world");
+    std::fs::write(folder.join("space.gltf"), to_gltf(&space)).expect("it can be written");
+    for (name, paths) in [
+        (
+            "plane",
+            write_frames(&recording, FrameSettings { count: 12, ..FrameSettings::default() }, &folder.join("plane")),
+        ),
+        ("space", write_frames(&space, FrameSettings { count: 12, ..FrameSettings::default() }, &folder.join("space"))),
+    ] {
+        assert_eq!(paths.expect("they can be written").len(), 13, "{name}");
     }
 }

@@ -5,10 +5,11 @@ mod common;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use tumble_math::{Planar, Spatial};
 use tumble_record::replay::{MOST_CONTACTS, MOST_POSES, write_replay};
-use tumble_record::{BodyKind, BodyRecord, BodyState, Recording, Sample};
+use tumble_record::{BodyKind, BodyRecord, BodyState, RecordDim, Recording, Sample};
 
-fn html(recording: &Recording) -> String {
+fn html<D: RecordDim>(recording: &Recording<D>) -> String {
     let mut bytes = Vec::new();
     write_replay(recording, &mut bytes).expect("memory takes all");
     String::from_utf8(bytes).expect("the page is UTF-8")
@@ -25,7 +26,9 @@ fn browser() -> Option<PathBuf> {
 fn document_after_scripts(browser: &Path, page: &Path, hash: &str) -> String {
     let profile = tempfile::tempdir().expect("a folder");
     let output = Command::new(browser)
-        .args(["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--dump-dom"])
+        .args(["--headless=new", "--no-sandbox", "--disable-background-networking", "--dump-dom"])
+        // WebGL without a graphics card.
+        .args(["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
         .arg("--virtual-time-budget=2000")
         .arg(format!("--user-data-dir={}", profile.path().display()))
         .arg(format!("file://{}{hash}", page.display()))
@@ -61,10 +64,41 @@ fn replay_opens_in_a_browser_and_goes_to_the_time_in_its_address() {
     assert!(document.contains(&format!("<dd>{}</dd>", row.contacts)), "contact points at that time are shown");
 
     // A recording of nothing at all must open as well.
-    std::fs::write(&page, html(&Recording::default())).expect("it can be written");
+    std::fs::write(&page, html::<Planar>(&Recording::default())).expect("it can be written");
     let document = document_after_scripts(&browser, &page, "");
     let tag = body_tag(&document);
     assert!(tag.contains("data-ready=\"true\"") && tag.contains("data-samples=\"0\""), "{tag}");
+}
+
+#[test]
+fn replay_of_space_opens_in_a_browser_with_light_and_without() {
+    let Some(browser) = browser() else {
+        eprintln!("SKIPPED: no chromium, chromium-browser or google-chrome on PATH; the replay was not opened");
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let page = folder.path().join("replay.html");
+    let recording = common::space::assortment(1.0, 4).expect("a sound world");
+    let whole = html(&recording);
+    std::fs::write(&page, &whole).expect("it can be written");
+    let document = document_after_scripts(&browser, &page, "#t=0.8");
+    let tag = body_tag(&document);
+    for attribute in ["data-ready=\"true\"", "data-bodies=\"12\"", "data-samples=\"51\"", "data-time=\"0.8\""] {
+        assert!(tag.contains(attribute), "{attribute} is missing in {tag}");
+    }
+    assert!(document.contains("id=\"light\"") && !document.contains("id=\"missing\""), "WebGL draws");
+    let row = recording.audit.iter().find(|row| row.step == 160).expect("an audit row per step");
+    assert!(row.contacts > 0 && document.contains(&format!("<dd>{}</dd>", row.contacts)), "contact points are shown");
+
+    // Where the browser has no WebGL the page says so, and the rest of it works.
+    let blind = whole.replace("getContext(\"webgl2\"", "getContext(\"no such thing\"");
+    std::fs::write(&page, blind).expect("it can be written");
+    let document = document_after_scripts(&browser, &page, "");
+    assert!(body_tag(&document).contains("data-ready=\"true\"") && document.contains("id=\"missing\""));
+
+    std::fs::write(&page, html::<Spatial>(&Recording::default())).expect("it can be written");
+    let document = document_after_scripts(&browser, &page, "");
+    assert!(body_tag(&document).contains("data-ready=\"true\""), "{}", body_tag(&document));
 }
 
 #[test]
@@ -83,7 +117,8 @@ fn names_cannot_break_out_of_the_data() {
 
 #[test]
 fn page_asks_for_nothing_from_outside() {
-    let page = html(&common::falling_rods(0.01, 10));
+    let space = common::space::assortment(0.01, 1).expect("a sound world");
+    let page = html(&common::falling_rods(0.01, 10)) + &html(&space);
     for outside in ["http://", "https://", "src=", "href=", "@import", "url(", "fetch("] {
         assert!(!page.contains(outside), "`{outside}` would leave the file");
     }
@@ -148,4 +183,6 @@ fn replay_to_look_at() {
     let Some(folder) = std::env::var_os("TUMBLE_PICTURES").map(PathBuf::from) else { return };
     std::fs::write(folder.join("replay.html"), html(&common::falling_rods(4.0, 10))).expect("it can be written");
     std::fs::write(folder.join("crowd.html"), html(&crowd(300, 2000, 1300))).expect("it can be written");
+    let space = common::space::assortment(3.0, 2).expect("a sound world");
+    std::fs::write(folder.join("space.html"), html(&space)).expect("it can be written");
 }

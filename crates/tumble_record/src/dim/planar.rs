@@ -1,11 +1,12 @@
 //! Recordings of the plane.
 
-use glam::DVec2;
+use glam::{DQuat, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
-use tumble_math::{Planar, PlanarRotation};
+use tumble_math::{Planar, PlanarRotation, trig};
 use tumble_shape::PlanarShape;
 
 use super::{Columns, Home, RecordDim, TurnAxis};
+use crate::mesh::{Detail, Mesh};
 use crate::recording::{BodyState, ContactRecord};
 
 /// Outline of a shape of the plane, in the body frame [m].
@@ -97,6 +98,19 @@ impl RecordDim for Planar {
     fn numbers(state: &BodyState) -> [f64; 6] {
         let BodyState { position, orientation, velocity, angular_velocity } = *state;
         [position.x, position.y, orientation, velocity.x, velocity.y, angular_velocity]
+    }
+
+    fn embed(vector: DVec2) -> DVec3 {
+        vector.extend(0.0)
+    }
+
+    fn quaternion(angle: &f64) -> DQuat {
+        let (sin, cos) = trig::sin_cos(0.5 * angle);
+        DQuat::from_xyzw(0.0, 0.0, sin, cos)
+    }
+
+    fn mesh(outline: &Geometry, detail: &Detail) -> Mesh {
+        Mesh::of_planar(outline, detail)
     }
 
     fn angle(angle: &f64) -> Option<f64> {

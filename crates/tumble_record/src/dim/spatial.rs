@@ -6,6 +6,7 @@ use tumble_math::{Spatial, SpatialRotation, SymmetricTensor};
 use tumble_shape::{ConvexHull, SpatialShape};
 
 use super::{Columns, Home, RecordDim, TurnAxis};
+use crate::mesh::{Detail, Mesh};
 use crate::recording::{BodyState, ContactRecord};
 
 /// Outline of a shape of space, in the body frame [m].
@@ -141,6 +142,18 @@ impl RecordDim for Spatial {
     fn numbers(state: &BodyState<Self>) -> [f64; 13] {
         let BodyState { position: x, orientation: q, velocity: v, angular_velocity: w } = *state;
         [x.x, x.y, x.z, q.x, q.y, q.z, q.w, v.x, v.y, v.z, w.x, w.y, w.z]
+    }
+
+    fn embed(vector: DVec3) -> DVec3 {
+        vector
+    }
+
+    fn quaternion(quaternion: &DQuat) -> DQuat {
+        *quaternion
+    }
+
+    fn mesh(outline: &SpatialGeometry, detail: &Detail) -> Mesh {
+        Mesh::of_spatial(outline, detail)
     }
 
     fn angle(_quaternion: &DQuat) -> Option<f64> {

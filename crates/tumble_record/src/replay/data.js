@@ -19,6 +19,12 @@ const recording = (() => {
   }
   return data;
 })();
+if (recording.stage) {
+  for (const mesh of recording.stage.meshes) {
+    mesh.corners = decodeWords(mesh.corners, Float32Array);
+    mesh.triangles = decodeWords(mesh.triangles, Uint32Array);
+  }
+}
 const firstTime = recording.times[0] ?? 0;
 const lastTime = recording.times.at(-1) ?? 0;
 
@@ -30,24 +36,6 @@ function indexAt(times, time) {
     if (times[middle] <= time) low = middle; else high = middle - 1;
   }
   return low;
-}
-
-/** Poses of all bodies at a time, between samples by linear interpolation; x is NaN for a body that is not in the world. */
-function posesAt(time, out = []) {
-  const { times, poses, bodies, origin } = recording;
-  const sample = indexAt(times, time), next = Math.min(sample + 1, times.length - 1);
-  const span = times[next] - times[sample];
-  const share = span > 0 ? Math.min(Math.max((time - times[sample]) / span, 0), 1) : 0;
-  for (let body = 0; body < bodies.length; body++) {
-    const now = (sample * bodies.length + body) * 3, later = (next * bodies.length + body) * 3;
-    const blend = (i) => {
-      const value = poses[now + i], end = poses[later + i];
-      return share > 0 && end === end ? value + share * (end - value) : value;
-    };
-    const angle = blend(2);
-    out[body] = { x: origin[0] + blend(0), y: origin[1] + blend(1), cos: Math.cos(angle), sin: Math.sin(angle), angle };
-  }
-  return out;
 }
 
 /** Numbers of a contact: point, impulse on b, normal impulse. */

@@ -10,7 +10,7 @@ pub fn words(numbers: impl Iterator<Item = usize>) -> String {
     base64(numbers.flat_map(|number| u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes()))
 }
 
-fn base64(mut bytes: impl Iterator<Item = u8>) -> String {
+pub fn base64(mut bytes: impl Iterator<Item = u8>) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::new();
     while let Some(first) = bytes.next() {

@@ -1,7 +1,8 @@
 //! Replay: one HTML file that plays a recording in a browser, without a network.
 //!
 //! Page, style, scripts and data are in the file. Numbers for the picture are 32-bit floats relative to the middle of the
-//! scene (better than 1e-6 of its size), in base64. A long recording is thinned to at most [`MOST_POSES`] poses and
+//! scene (better than 1e-6 of its size), in base64. A scene of the plane is a drawing; one of space is drawn with light and
+//! shadow by WebGL, and a page without it says so. A long recording is thinned to at most [`MOST_POSES`] poses and
 //! [`MOST_CONTACTS`] contact points by leaving out whole samples, evenly, and the page says so; the file then stays below
 //! 30 MB. Once drawn, the `body` element has `data-ready="true"`, `data-bodies`, `data-samples` and `data-time`.
 //! The address may end in `#t=1.5` to open at a time.
@@ -10,14 +11,16 @@ mod encode;
 
 use std::io::{self, Write};
 
+use glam::DVec3;
 use serde::Serialize;
 use tumble_math::{Linear, Vector};
 
-use crate::dim::RecordDim;
-use crate::recording::{
-    AuditRow, BodyKind, BodyRecord, BodyState, JointRecord, Recording, Sample, ShapeRecord, SpringRecord,
-};
+use crate::dim::{Home, RecordDim};
+use crate::mesh::Look;
+use crate::recording::{AuditRow, BodyKind, BodyState, JointRecord, Recording, Sample, ShapeRecord, SpringRecord};
+use crate::stage::Stage;
 use crate::thin::keep_extremes;
+pub(crate) use encode::base64;
 use encode::{floats, words};
 
 /// Most poses (samples × bodies) in a replay: about 10 MB.
@@ -29,16 +32,20 @@ const ENERGY_STRETCHES: usize = 1000;
 
 const PAGE: &str = include_str!("replay.html");
 const STYLE: &str = include_str!("replay.css");
-const SCRIPTS: [&str; 4] =
-    [include_str!("data.js"), include_str!("view.js"), include_str!("energy.js"), include_str!("player.js")];
+const DATA: &str = include_str!("data.js");
+const PLAYER: [&str; 2] = [include_str!("energy.js"), include_str!("player.js")];
+const VIEW_OF_PLANE: [&str; 2] = [include_str!("pen.js"), include_str!("view.js")];
+const VIEW_OF_SPACE: [&str; 3] = [include_str!("pen.js"), include_str!("light.js"), include_str!("space.js")];
 
 /// Writes `replay.html`.
 pub fn write_replay<D: RecordDim>(recording: &Recording<D>, mut out: impl Write) -> io::Result<()> {
     let data = serde_json::to_string(&Data::new(recording))?;
     // Names may contain `</script>` or `<!--`; a JSON string says `<` in another way too.
     let data = data.replace('<', "\\u003c");
+    let view = if D::HOME == Home::Space { VIEW_OF_SPACE.concat() } else { VIEW_OF_PLANE.concat() };
+    let scripts = [DATA, &view, PLAYER[0], PLAYER[1]].concat();
     let mut rest = PAGE;
-    for (mark, content) in [("{{STYLE}}", STYLE), ("{{DATA}}", &data), ("{{SCRIPT}}", &SCRIPTS.concat())] {
+    for (mark, content) in [("{{STYLE}}", STYLE), ("{{DATA}}", &data), ("{{SCRIPT}}", &scripts)] {
         let (before, after) = rest.split_once(mark).expect("the page has each mark once, in this order");
         out.write_all(before.as_bytes())?;
         out.write_all(content.as_bytes())?;
@@ -74,6 +81,28 @@ struct Data<'a, D: RecordDim> {
     /// Indices of a and b of each contact.
     contact_pairs: String,
     audit: Audit,
+    /// What a picture in space is made of; none in the plane.
+    stage: Option<Scenery>,
+}
+
+/// What a picture in space is made of.
+#[derive(Serialize)]
+struct Scenery {
+    meshes: Vec<Surface>,
+    /// Unit vector against gravity.
+    up: DVec3,
+    /// Two corners of the box around all that moves, relative to the origin [m].
+    span: [DVec3; 2],
+}
+
+/// A mesh.
+#[derive(Serialize)]
+struct Surface {
+    /// Place, normal and brightness of each corner: seven numbers.
+    corners: String,
+    /// Corners of each triangle.
+    triangles: String,
+    ground: bool,
 }
 
 #[derive(Serialize)]
@@ -81,7 +110,12 @@ struct Data<'a, D: RecordDim> {
 struct Body<'a, D: RecordDim> {
     name: &'a str,
     kind: &'static str,
+    /// Outlines; of the plane.
     shapes: &'a [ShapeRecord<D>],
+    /// Index of the mesh of each shape, and whether it is a sensor; of space.
+    parts: Vec<(usize, bool)>,
+    /// Largest distance of its surface from its centre of mass; of space [m].
+    reach: f64,
 }
 
 /// Curves over the steps, thinned without losing a peak.
@@ -99,6 +133,7 @@ impl<'a, D: RecordDim> Data<'a, D> {
     fn new(recording: &'a Recording<D>) -> Self {
         let samples = thinned(recording);
         let origin = middle(&samples);
+        let stage = (D::HOME == Home::Space).then(|| Stage::new(recording));
         let contacts = || samples.iter().flat_map(|sample| &sample.contacts);
         Self {
             scene: &recording.scene,
@@ -106,7 +141,7 @@ impl<'a, D: RecordDim> Data<'a, D> {
             contact: &recording.contact,
             dt: recording.dt,
             gravity: recording.gravity,
-            bodies: recording.bodies.iter().map(Body::new).collect(),
+            bodies: (0..recording.bodies.len()).map(|body| Body::new(recording, body, stage.as_ref())).collect(),
             springs: &recording.springs,
             joints: &recording.joints,
             recorded_samples: recording.samples.len(),
@@ -126,18 +161,40 @@ impl<'a, D: RecordDim> Data<'a, D> {
             })),
             contact_pairs: words(contacts().flat_map(|contact| [contact.a, contact.b])),
             audit: Audit::new(&recording.audit),
+            stage: stage.as_ref().map(|stage| Scenery::new(stage, D::embed(origin))),
         }
     }
 }
 
 impl<'a, D: RecordDim> Body<'a, D> {
-    fn new(body: &'a BodyRecord<D>) -> Self {
-        let kind = match body.kind {
+    fn new(recording: &'a Recording<D>, body: usize, stage: Option<&Stage>) -> Self {
+        let record = &recording.bodies[body];
+        let kind = match record.kind {
             BodyKind::Dynamic => "dynamic",
             BodyKind::Kinematic => "kinematic",
             BodyKind::Static => "static",
         };
-        Self { name: &body.name, kind, shapes: &body.shapes }
+        let Some(stage) = stage else {
+            return Self { name: &record.name, kind, shapes: &record.shapes, parts: Vec::new(), reach: 0.0 };
+        };
+        let parts: Vec<(usize, bool)> = stage.bodies[body].parts.iter().map(|part| (part.mesh, part.sensor)).collect();
+        let reach = stage.bodies[body].reach;
+        Self { name: &record.name, kind, shapes: &[], parts, reach }
+    }
+}
+
+impl Scenery {
+    fn new(stage: &Stage, origin: DVec3) -> Self {
+        let meshes = stage.meshes.iter().map(|mesh| Surface {
+            corners: floats(mesh.positions.iter().zip(&mesh.normals).zip(&mesh.shades).flat_map(
+                |((position, normal), shade)| {
+                    [position.x, position.y, position.z, normal.x, normal.y, normal.z, *shade]
+                },
+            )),
+            triangles: words(mesh.triangles.iter().flatten().map(|corner| *corner as usize)),
+            ground: mesh.look == Look::Ground,
+        });
+        Self { meshes: meshes.collect(), up: stage.up, span: stage.span.map(|corner| corner - origin) }
     }
 }
 

@@ -37,6 +37,7 @@ if (recording.times.length < recording.recorded_samples) {
     `To keep this file small it shows ${count(recording.times.length)} of ${count(recording.recorded_samples)} samples; the tables have all of them.`;
 }
 
+if (view.help) element("drag-help").textContent = view.help;
 element("springs-choice").hidden = recording.springs.length === 0;
 element("joints-choice").hidden = recording.joints.length === 0;
 
@@ -137,15 +138,15 @@ function draw() {
 const pointer = { x: 0, y: 0, over: false, dragging: false };
 
 function showTooltip() {
+  if (!pointer.over) view.hovered = -1;
   const tooltip = element("tooltip");
   const body = pointer.over && !pointer.dragging ? view.bodyAt(pointer.x, pointer.y) : -1;
   tooltip.hidden = body < 0;
   if (body < 0) return;
-  const pose = view.poses[body];
   const name = document.createElement("b");
   name.textContent = recording.bodies[body].name;
   const kind = recording.bodies[body].kind;
-  const where = kind === "static" ? "" : `\nx ${show(pose.x)} m   y ${show(pose.y)} m\nangle ${show(pose.angle)} rad`;
+  const where = kind === "static" ? "" : `\n${view.describe(body)}`;
   tooltip.replaceChildren(name, kind + where);
   tooltip.style.left = `${Math.max(4, Math.min(pointer.x + 14, view.width - tooltip.offsetWidth - 4))}px`;
   tooltip.style.top = `${Math.max(4, Math.min(pointer.y + 14, view.height - tooltip.offsetHeight - 4))}px`;
@@ -187,19 +188,39 @@ canvas.addEventListener("wheel", (event) => {
   view.zoom(event.offsetX, event.offsetY, Math.exp(-event.deltaY * (event.deltaMode === 1 ? .04 : .0015)));
   redraw();
 }, { passive: false });
+/** Fingers and buttons that are down, by the id of the pointer. */
+const touches = new Map();
 canvas.addEventListener("pointerdown", (event) => {
   canvas.setPointerCapture(event.pointerId);
+  touches.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
   pointer.dragging = true;
+  Object.assign(pointer, { x: event.offsetX, y: event.offsetY });
   canvas.classList.add("dragging");
 });
 canvas.addEventListener("pointermove", (event) => {
-  if (pointer.dragging) view.pan(event.offsetX - pointer.x, event.offsetY - pointer.y);
-  Object.assign(pointer, { x: event.offsetX, y: event.offsetY, over: true });
+  const before = touches.get(event.pointerId), now = { x: event.offsetX, y: event.offsetY };
+  if (before && touches.size === 2) {
+    // Two fingers: their distance zooms, their middle moves.
+    const [other] = [...touches].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
+    const reach = ({ x, y }) => Math.max(Math.hypot(x - other.x, y - other.y), 1);
+    view.zoom((now.x + other.x) / 2, (now.y + other.y) / 2, reach(now) / reach(before));
+    view.pan((now.x - before.x) / 2, (now.y - before.y) / 2);
+  } else if (before) {
+    if (event.shiftKey || event.buttons & 6) view.pan(now.x - before.x, now.y - before.y);
+    else view.drag(now.x - before.x, now.y - before.y);
+  }
+  if (before) touches.set(event.pointerId, now);
+  Object.assign(pointer, { ...now, over: true });
   redraw();
 });
 for (const name of ["pointerup", "pointercancel"]) {
-  canvas.addEventListener(name, () => { pointer.dragging = false; canvas.classList.remove("dragging"); redraw(); });
+  canvas.addEventListener(name, (event) => {
+    touches.delete(event.pointerId);
+    if (touches.size === 0) { pointer.dragging = false; canvas.classList.remove("dragging"); }
+    redraw();
+  });
 }
+canvas.addEventListener("contextmenu", (event) => event.preventDefault());
 canvas.addEventListener("pointerleave", () => { pointer.over = false; redraw(); });
 canvas.addEventListener("dblclick", () => { view.fit(); redraw(); });
 

@@ -1,10 +1,26 @@
-// The picture of the bodies.
+// The picture of the bodies of a plane.
 
-const PALETTE = ["#2f7fc1", "#d9742b", "#2aa37a", "#c0589a", "#b98d00", "#4fa3d8", "#a5544a", "#6f7fd0"];
+/** Poses of all bodies at a time, between samples by linear interpolation; x is NaN for a body that is not in the world. */
+function posesAt(time, out = []) {
+  const { times, poses, bodies, origin } = recording;
+  const sample = indexAt(times, time), next = Math.min(sample + 1, times.length - 1);
+  const span = times[next] - times[sample];
+  const share = span > 0 ? Math.min(Math.max((time - times[sample]) / span, 0), 1) : 0;
+  for (let body = 0; body < bodies.length; body++) {
+    const now = (sample * bodies.length + body) * 3, later = (next * bodies.length + body) * 3;
+    const blend = (i) => {
+      const value = poses[now + i], end = poses[later + i];
+      return share > 0 && end === end ? value + share * (end - value) : value;
+    };
+    const angle = blend(2);
+    out[body] = { x: origin[0] + blend(0), y: origin[1] + blend(1), cos: Math.cos(angle), sin: Math.sin(angle), angle };
+  }
+  return out;
+}
 
-class View {
+class View extends Pen {
   constructor(canvas) {
-    this.canvas = canvas;
+    super(canvas);
     this.camera = { x: 0, y: 0, scale: 100 };
     this.fitted = true;
     this.force = typicalForce();
@@ -66,6 +82,15 @@ class View {
     this.camera.x -= dx / this.camera.scale;
     this.camera.y += dy / this.camera.scale;
     this.fitted = false;
+  }
+
+  /** What a drag does. */
+  drag(dx, dy) { this.pan(dx, dy); }
+
+  /** What is said about a body that the pointer is over. */
+  describe(index) {
+    const pose = this.poses[index];
+    return `x ${show(pose.x)} m   y ${show(pose.y)} m\nangle ${show(pose.angle)} rad`;
   }
 
   /** Draws everything at a time, with the contacts of a sample. */
@@ -345,16 +370,6 @@ class View {
     });
   }
 
-  /** Text with a rim in the colour of the page, readable on anything. */
-  outlined(text, x, y) {
-    const { context } = this;
-    context.lineWidth = 4;
-    context.strokeStyle = color("--canvas");
-    context.strokeText(text, x, y);
-    context.fillStyle = color("--ink");
-    context.fillText(text, x, y);
-  }
-
   drawContacts(contacts) {
     const { context } = this;
     context.lineWidth = 1.5;
@@ -376,27 +391,6 @@ class View {
         if (recording.bodies[body]?.kind === "dynamic") this.arrow(x, y, sign * contact.force[0] * pixels, -sign * contact.force[1] * pixels);
       }
     }
-  }
-
-  /** An arrow of at most 220 px; one that had to be cut has a double head. */
-  arrow(x, y, dx, dy) {
-    const { context } = this;
-    const full = Math.hypot(dx, dy);
-    if (!(full >= 1.5)) return;
-    const length = Math.min(full, 220), head = Math.min(9, .6 * length);
-    context.save();
-    context.translate(x, y);
-    context.rotate(Math.atan2(dy, dx));
-    context.strokeStyle = context.fillStyle = color("--force");
-    context.lineWidth = 2;
-    context.lineCap = "butt";
-    context.beginPath(); context.moveTo(0, 0); context.lineTo(length - head, 0); context.stroke();
-    for (const tip of full > 220 ? [length, length - 8] : [length]) {
-      context.beginPath();
-      context.moveTo(tip, 0); context.lineTo(tip - head, .42 * head); context.lineTo(tip - head, -.42 * head);
-      context.fill();
-    }
-    context.restore();
   }
 
   /** What a length and an arrow mean. */
