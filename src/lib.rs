@@ -152,7 +152,7 @@
 //! # 7. Recording
 //!
 //! [`record`](record::Record::record) samples states and contacts while a simulation runs, and audits energy, momentum and overlap every step. From a
-//! recording come CSV tables, plots, a replay that opens in a browser, and a fingerprint of every bit of the state. See [`record`].
+//! recording come CSV tables, plots, a replay that opens in a browser, glTF and PNG frames, and a fingerprint of every bit of the state, in the plane and in space. See [`record`].
 //!
 //! ```
 //! use tumble::prelude::*;
@@ -220,7 +220,7 @@
 //! | [`collision`] | near pairs and contact points |
 //! | [`solver`] | contact models on plain slices |
 //! | [`sim`] | bodies as components, the step, forces |
-//! | [`record`] | what happened: tables, plots, replay, fingerprints |
+//! | [`record`] | what happened: tables, plots, replay, glTF, frames, fingerprints |
 //! | [`scene`] | files ↔ worlds, and what a scene promises |
 //!
 //! Systems and components come from [`bevy_ecs`], vectors from [`glam`]; both are re-exported here in the versions that fit. To derive `Component` or

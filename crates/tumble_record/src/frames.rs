@@ -10,6 +10,7 @@ mod raster;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::thread;
 
 use crate::dim::RecordDim;
 use crate::files::{FileAction, FileError, write_file};
@@ -139,12 +140,26 @@ pub fn write_frames<D: RecordDim>(
         fs::remove_file(&old).map_err(|reason| FileError::new(FileAction::Remove, &old, reason))?;
     }
     let mut paths = Vec::new();
-    for number in 0..frames.count() {
+    let numbers: Vec<usize> = (0..frames.count()).collect();
+    // Pictures do not know of each other: as many at once as the machine likes, in their order.
+    let at_once = thread::available_parallelism().map_or(1, usize::from);
+    let draw = |number: usize| {
         let picture = frames.picture(number);
-        let path = place(number);
-        write_file(&path, |out| out.write_all(&picture.to_png()?))?;
-        animation.add(&picture);
-        paths.push(path);
+        let png = picture.to_png()?;
+        Ok((picture, png))
+    };
+    for numbers in numbers.chunks(at_once) {
+        let drawn: Vec<io::Result<(Picture, Vec<u8>)>> = thread::scope(|scope| {
+            let painters: Vec<_> = numbers.iter().map(|number| scope.spawn(|| draw(*number))).collect();
+            painters.into_iter().map(|painter| painter.join().expect("drawing does not panic")).collect()
+        });
+        for (number, drawn) in numbers.iter().zip(drawn) {
+            let path = place(*number);
+            let (picture, png) = drawn.map_err(|reason| FileError::new(FileAction::Write, &path, reason))?;
+            write_file(&path, |out| out.write_all(&png))?;
+            animation.add(&picture);
+            paths.push(path);
+        }
     }
     let path = folder.join("scene.gif");
     write_file(&path, |out| out.write_all(&animation.finish()?))?;

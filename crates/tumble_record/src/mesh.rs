@@ -88,7 +88,7 @@ impl Mesh {
                     let out = around(sector);
                     self.positions.push(from + axis * ring.along + out * ring.radius);
                     self.normals.push(axis * ring.normal.0 + out * ring.normal.1);
-                    self.shades.push(if field % 2 == 0 { 1.0 } else { DARKER });
+                    self.shades.push(if field.is_multiple_of(2) { 1.0 } else { DARKER });
                 }
                 self.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
             }

@@ -69,7 +69,8 @@ impl<'a> Painter<'a> {
         for solid in self.solids.iter().filter(|solid| !solid.sensor && solid.mesh.look == Look::Solid) {
             self.sun.shine_on(solid);
         }
-        let mut colors: Vec<DVec3> = (0..self.width * self.height).map(|pixel| self.sky(pixel)).collect();
+        let rows = (0..self.height).map(|row| self.sky(row * self.width));
+        let mut colors: Vec<DVec3> = rows.flat_map(|sky| std::iter::repeat_n(sky, self.width)).collect();
         let mut depths = vec![0.0; colors.len()];
         for solid in self.solids.iter().filter(|solid| !solid.sensor) {
             self.draw(solid, &mut colors, &mut depths);

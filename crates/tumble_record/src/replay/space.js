@@ -114,10 +114,10 @@ class View extends Pen {
     Object.assign(this, { context, width, height });
     if (!this.everFitted && width > 0) { this.fit(); this.everFitted = true; }
     this.poses = posesAt(time);
-    this.drawSky();
     const [right, above, forward] = this.axes(), { distance, focus } = this.camera;
     const eye = add(focus, forward, -distance);
     this.seen = { right, above, forward, eye, scale: height / (2 * this.slope()) };
+    this.drawSky();
     if (this.light.works && width > 0) this.drawSolids();
     context.lineJoin = context.lineCap = "round";
     if (options.trails) this.drawTrails(time);
@@ -130,12 +130,13 @@ class View extends Pen {
     this.drawScale(options);
   }
 
-  /** The sky is the page behind the solids. */
+  /** The sky is the page behind the solids: hazy at the horizon, where the ground ends in haze too. */
   drawSky() {
     const dark = matchMedia("(prefers-color-scheme: dark)").matches;
     this.haze = dark ? "#20252d" : "#e9edf2";
+    const horizon = this.height / 2 - this.seen.scale * Math.tan(this.camera.elevation);
     this.canvas.parentElement.style.background =
-      dark ? "linear-gradient(#0f1318, #20252d 62%)" : "linear-gradient(#b9cde4, #e9edf2 62%)";
+      `linear-gradient(${dark ? "#0f1318" : "#b3c9e2"} ${horizon - .6 * this.height}px, ${this.haze} ${horizon}px)`;
   }
 
   drawSolids() {
