@@ -7,7 +7,7 @@ use bevy_ecs::name::Name;
 use glam::{DVec3, dvec2, dvec3};
 use support::{G, assert_near, body, bouncing, direction, floor, simulation};
 use tumble_math::{Planar, Rotation, Spatial, SpatialRotation, SymmetricTensor, trig};
-use tumble_shape::{Cuboid, HalfSpace, SpatialRod, SpatialShape, Sphere};
+use tumble_shape::{Cuboid, Cylinder, HalfSpace, SpatialRod, SpatialShape, Sphere};
 use tumble_sim::{
     Amount, AngularVelocity, BodyKind, ContactModel, InertiaOverride, LinearVelocity, Orientation, Part, Position,
     Settings, Simulation,
@@ -205,5 +205,48 @@ fn a_rod_of_the_plane_moves_alike_in_space() {
         // Quaternions and angles round differently, and each of the few impacts multiplies that.
         assert!((flat.position() - seen).length() < 1e-9, "{} and {seen} at {} s", flat.position(), plane.time());
         assert!(deep.position().y.abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_cylinder_stands_on_a_table_and_another_one_on_it() {
+    for contact in RIGID {
+        let rough = Surface { static_friction: 0.5, kinetic_friction: 0.5, restitution: 0.0 };
+        let mut simulation = on_a_floor(settings(contact, 0.01), rough);
+        spawn(&mut simulation, "table", cuboid(dvec3(2.0, 2.0, 0.4)), 20.0, &Start::at(dvec3(0.0, 0.0, 0.2)));
+        for (name, height, mass) in [("lower", 0.8, 2.0), ("upper", 1.6, 5.0)] {
+            let can = Cylinder::try_new(dvec3(0.0, 0.0, -0.4), dvec3(0.0, 0.0, 0.4), 0.25).unwrap();
+            spawn(&mut simulation, name, can, mass, &Start::at(dvec3(0.3, 0.1, height)));
+        }
+        simulation.run_for(5.0).unwrap();
+        for (name, height) in [("lower", 0.8), ("upper", 1.6)] {
+            let can = simulation.body(name).unwrap();
+            // Round-off of five hundred steps.
+            near(can.position(), dvec3(0.3, 0.1, height), 1e-10);
+            near(can.angular_velocity(), DVec3::ZERO, 1e-10);
+        }
+    }
+}
+
+#[test]
+fn d7_a_cylinder_rolls_down_a_plank() {
+    let surface = Surface { static_friction: 0.4, kinetic_friction: 0.4, restitution: 0.0 };
+    for contact in RIGID {
+        let mut simulation = Simulation::with_settings(settings(contact, 1e-3));
+        simulation.materials_mut().set("default", surface);
+        let turned = SpatialRotation::IDENTITY.turned(dvec3(0.0, 30f64.to_radians(), 0.0));
+        let plank =
+            simulation.spawn((Name::new("plank"), Position(DVec3::ZERO), Orientation(turned), BodyKind::Static));
+        simulation.attach(plank, Part::new(SpatialShape::from(cuboid(dvec3(20.0, 4.0, 0.2))), Amount::Density(0.0)));
+        let down = turned.rotate(DVec3::X);
+        let log = Cylinder::try_new(dvec3(0.0, -0.5, 0.0), dvec3(0.0, 0.5, 0.0), 0.1).unwrap();
+        let start = Start { turned, ..Start::at(turned.rotate(dvec3(-5.0, 0.0, 0.2))) };
+        spawn(&mut simulation, "log", log, 3.0, &start);
+        simulation.run_for(1.0).unwrap();
+        let log = simulation.body("log").unwrap();
+        // g sin θ/(1 + ½); symplectic Euler is half a step ahead in the way.
+        near(log.velocity(), down * 3.27, 1e-6);
+        near(log.position() - start.at, down * 1.635, 2e-3);
+        near(log.angular_velocity(), DVec3::Y * 32.7, 1e-5);
     }
 }

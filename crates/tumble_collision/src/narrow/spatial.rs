@@ -1,7 +1,7 @@
 //! Contact points of two shapes of space.
 //!
-//! Every shape but the half-space is a core (point, segment or polyhedron) grown by a radius. Cylinders and cones
-//! touch half-spaces only, as yet: a pair of one of them and anything else makes an empty manifold.
+//! Every shape but the half-space, the cylinder and the cone is a core (point, segment or polyhedron) grown by a radius. Cylinders and
+//! cones are hulls of two circles, and have a search of their own, exact like the others (`rims.rs`).
 //!
 //! # The two generic cases (L2)
 //!
@@ -71,6 +71,7 @@ mod hulls;
 mod memory;
 mod place;
 mod reduce;
+mod rims;
 mod round;
 mod search;
 mod segment;
@@ -99,8 +100,7 @@ const FLUSH_SLACK: f64 = 1.0 + 1e-6;
 
 /// Contact points of shapes a and b in the given poses, the normal running from a to b.
 ///
-/// Without points when the shapes are further apart than the margin, for two half-spaces, for cylinders and cones with
-/// anything but a half-space, and for a pose that is not finite.
+/// Without points when the shapes are further apart than the margin, for two half-spaces, and for a pose that is not finite.
 pub fn collide(
     a: &SpatialShape,
     pose_a: &Pose<Spatial>,
@@ -161,7 +161,8 @@ fn ordered(
         (Solid::Point(a, radius_a), Solid::Point(b, radius_b)) => {
             segments::collide(&pair, &[a], &[b], [radius_a, radius_b])
         }
-        // Cylinders and cones; ranks rule the rest out.
+        (other, Solid::Rims(ends, radii)) => rims::collide(&pair, &other, ends, radii),
+        // Ranks rule these out.
         _ => SpatialManifold::EMPTY,
     }
 }

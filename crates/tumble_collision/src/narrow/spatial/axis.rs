@@ -109,6 +109,11 @@ impl FlushFaces {
 
     /// Whether one of them runs across an axis.
     pub(super) fn across(&self, axis: &Axis) -> bool {
-        self.normals[..self.count].iter().any(|normal| normal.dot(axis.normal).abs() < ACROSS)
+        self.is_across(axis.normal)
+    }
+
+    /// Whether one of them runs across a unit vector.
+    pub(super) fn is_across(&self, normal: DVec3) -> bool {
+        self.normals[..self.count].iter().any(|flush| flush.dot(normal).abs() < ACROSS)
     }
 }

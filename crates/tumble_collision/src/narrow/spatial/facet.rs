@@ -5,7 +5,7 @@ use tumble_shape::Facet;
 use super::Pair;
 use super::core::Solid;
 use super::draft::Owner;
-use super::{cut, face, hulls, round};
+use super::{cut, face, hulls, rims, round};
 use crate::manifold::SpatialManifold;
 
 /// Contact points of facet a and a shape.
@@ -18,12 +18,15 @@ pub(super) fn collide(pair: &Pair, facet: &Facet, other: &Solid) -> SpatialManif
         Solid::Hull(hull, _) => hulls::collide(pair, prism, hull, None),
         Solid::Segment(ends, radius) => round::collide(pair, prism, ends, radius),
         Solid::Point(centre, radius) => round::collide(pair, prism, &[centre], radius),
-        Solid::Facet(_) | Solid::Rims(..) => return SpatialManifold::EMPTY,
+        Solid::Rims(ends, radii) => rims::collide(pair, &Solid::Facet(facet), ends, radii),
+        Solid::Facet(_) => return SpatialManifold::EMPTY,
     };
     if manifold.is_empty() || facet.allows(pair.a_in_world.unturned(manifold.normal)) {
         return manifold;
     }
     let top = &prism.faces()[0];
+    // What is through the prism is on the other side of the ground.
+    let thickness = top.offset - top.normal.dot(prism.vertices()[3]);
     let place = &pair.b_in_a;
     let (mut cut, radius) = match *other {
         Solid::Hull(hull, _) => {
@@ -36,10 +39,9 @@ pub(super) fn collide(pair: &Pair, facet: &Facet, other: &Solid) -> SpatialManif
         }
         Solid::Segment(ends, radius) => (cut::segment(prism, top, ends.map(|end| place.point(end))), radius),
         Solid::Point(centre, radius) => (cut::point(prism, top, place.point(centre)), radius),
-        Solid::Facet(_) | Solid::Rims(..) => return SpatialManifold::EMPTY,
+        Solid::Rims(ends, radii) => return rims::on_top(pair, prism, ends, radii, -thickness),
+        Solid::Facet(_) => return SpatialManifold::EMPTY,
     };
-    // What is through the prism is on the other side of the ground.
-    let thickness = top.offset - top.normal.dot(prism.vertices()[3]);
     cut.retain(|point| point.height - radius >= -thickness);
     face::choose(pair, top, &mut cut, radius);
     face::manifold(pair, Owner::A, top, &cut, radius)
