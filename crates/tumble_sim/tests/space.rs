@@ -168,8 +168,8 @@ fn g2_a_million_steps_keep_momentum_energy_and_flips() {
             worst_early = worst;
         }
     }
-    // Each step rounds once or twice, at random: a thousand roundings of 10 kg·m²/s.
-    assert!((body.momentum() - momentum).length() < 1e-9, "{}", body.momentum());
+    // Each step rounds 10 kg·m²/s a few times, by up to 2e-15 each and not quite at random.
+    assert!((body.momentum() - momentum).length() < 2e-8, "{}", body.momentum());
     let length = body.rotation().quaternion().length();
     assert!((length - 1.0).abs() < 4.0 * f64::EPSILON, "{length}");
     // It swings with the flips and does not grow.

@@ -310,10 +310,8 @@ fn line_over_disc(
     let snap = SNAP * radius;
     let over = |place: DVec3| normal.cross(place - centre).length() <= radius + snap;
     let mut found = SmallVec::new();
-    for end in 0..ends {
-        if over(line[end]) {
-            found.push((line[end], At::End(end as u32)));
-        }
+    for (end, place) in line.into_iter().enumerate().take(ends).filter(|(_, place)| over(*place)) {
+        found.push((place, At::End(end as u32)));
     }
     if ends == 2 && found.len() < 2 {
         let flat = line.map(|place| place - normal * normal.dot(place - centre));
