@@ -66,6 +66,12 @@ pub struct RunArguments {
     /// Draw a quantity over time, such as `total` or `y:ball`; may be repeated
     #[arg(long = "plot", value_name = "CHANNEL[:BODY]")]
     pub plots: Vec<Channel>,
+    /// Also write scene.gltf, an animation that viewers of models open
+    #[arg(long)]
+    pub gltf: bool,
+    /// Also draw N pictures, evenly spaced over the run: frames/0000.png, … and scene.gif
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    pub frames: Option<u32>,
     /// Print only failed expectations and errors
     #[arg(long, short)]
     pub quiet: bool,
@@ -172,7 +178,8 @@ fn after_compare_help() -> String {
 
 fn after_run_help() -> String {
     format!(
-        "Files: trajectory.csv, contacts.csv, audit.csv, touches.csv, joints.csv (of scenes with joints), summary.json, energy.svg, replay.html, and an SVG per plot.\n\
+        "Files: trajectory.csv, contacts.csv, audit.csv, touches.csv, joints.csv (of scenes with joints), summary.json, energy.svg, replay.html, and an SVG per plot;\n\
+         with --gltf scene.gltf, with --frames frames/0000.png, … and scene.gif.\n\
          They appear whole or not at all; of a run that fails or is interrupted, DIR/partial/ holds the samples so far.\n\n\
          With --contact, --dt or --duration the expectations are told, but a failed one does not fail the run.\n\n\
          {}\nWithout :BODY or :JOINT, a channel shows every moving body or joint.\n\n{EXIT_CODES}",

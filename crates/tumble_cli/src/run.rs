@@ -1,8 +1,12 @@
 //! `tumble run`: a scene from its first step to its files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use tumble_record::{Completeness, OutputFolder, Record, Summary, write_run};
+use tumble_record::frames::{FrameSettings, write_frames};
+use tumble_record::gltf::to_gltf;
+use tumble_record::{
+    Completeness, FileError, OutputFolder, Record, RecordDim, Recording, Summary, write_file, write_run,
+};
 
 use crate::args::RunArguments;
 use crate::failure::{Exit, Failure, stderr_color, tell};
@@ -66,10 +70,11 @@ impl Output<'_> {
         thin(&mut run.recording, prepared.every);
         let summary = Summary::new(&run.recording, run.wall_time);
         let plots = &self.arguments.plots;
-        let files = match write_run(&self.folder, Completeness::Whole, &run.recording, &summary, plots) {
+        let mut files = match write_run(&self.folder, Completeness::Whole, &run.recording, &summary, plots) {
             Ok(files) => files,
             Err(error) => return self.partial(prepared, run, &error.to_string()),
         };
+        files.extend(self.pictures(&run.recording)?);
         if self.arguments.quiet {
             report::outcomes(page, &verdict, Shown::Failures);
         } else {
@@ -90,6 +95,22 @@ impl Output<'_> {
         }
         let decides = self.arguments.overrides.are_none();
         Ok(if decides && !tally.passed() { Exit::ExpectationFailed } else { Exit::Fine })
+    }
+
+    /// Writes the pictures in space that were asked for, and returns where they are.
+    fn pictures<D: RecordDim>(&self, recording: &Recording<D>) -> Result<Vec<PathBuf>, FileError> {
+        let folder = self.folder.path(Completeness::Whole);
+        let mut places = Vec::new();
+        if self.arguments.gltf {
+            places.push(folder.join("scene.gltf"));
+            write_file(&folder.join("scene.gltf"), |out| out.write_all(to_gltf(recording).as_bytes()))?;
+        }
+        if let Some(count) = self.arguments.frames {
+            let settings = FrameSettings { count: count as usize, ..FrameSettings::default() };
+            write_frames(recording, settings, &folder)?;
+            places.extend(["frames", "scene.gif"].map(|name| folder.join(name)));
+        }
+        Ok(places)
     }
 
     /// Writes the samples so far of a run that did not come to its end, or whose files cannot be written.

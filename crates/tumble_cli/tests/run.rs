@@ -37,6 +37,17 @@ fn the_summary_tells_what_happened() {
 }
 
 #[test]
+fn pictures_in_space_are_written_when_asked_for() {
+    let bench = Bench::new();
+    bench.write("falling.ron", FALLING);
+    let run = bench.tumble(["run", "falling.ron", "--gltf", "--frames", "3"]).code(0);
+    assert!(run.stdout.contains("scene.gltf, frames, scene.gif"), "{}", run.stdout);
+    assert_eq!(bench.names("out/falling/frames"), ["0000.png", "0001.png", "0002.png"]);
+    assert!(bench.read("out/falling/scene.gltf").contains("\"animations\""));
+    assert!(bench.path("out/falling/scene.gif").exists());
+}
+
+#[test]
 fn two_processes_give_the_same_bits() {
     let bench = Bench::new();
     let runs = ["one", "two"].map(|out| {
