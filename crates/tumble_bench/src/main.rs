@@ -153,7 +153,8 @@ fn settle(arguments: &Arguments) -> Result<(), StepError> {
         slowest * 1e3
     );
     println!(
-        "    {} touching points, deepest overlap {:.4} m, {} beyond {:.3} m, fastest body {:.3} m/s; {} steps did not converge",
+        "    {} near pairs, {} touching points, deepest overlap {:.4} m, {} beyond {:.3} m, fastest body {:.3} m/s; {} steps did not converge",
+        figures.pairs,
         figures.touching,
         figures.deepest_overlap,
         figures.deep,

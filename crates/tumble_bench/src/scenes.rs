@@ -101,6 +101,8 @@ pub const DEEP: f64 = 0.01;
 
 /// What a pile looks like.
 pub struct PileFigures {
+    /// Pairs of parts that are near each other.
+    pub pairs: usize,
     /// Touching points.
     pub touching: usize,
     /// Deepest overlap [m].
@@ -124,6 +126,7 @@ pub fn pile_figures(simulation: &mut Simulation) -> PileFigures {
     let mut velocities = world.query::<&LinearVelocity<DVec2>>();
     let fastest = velocities.iter(world).map(|velocity| Linear::length(velocity.0)).fold(0.0, f64::max);
     PileFigures {
+        pairs: pairs.iter(world).len(),
         touching: separations.len(),
         deepest_overlap: separations.iter().map(|separation| -separation).fold(0.0, f64::max),
         deep: separations.iter().filter(|separation| **separation < -DEEP).count(),

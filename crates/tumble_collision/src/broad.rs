@@ -23,7 +23,7 @@ mod volume;
 
 use tumble_math::Vector;
 
-pub use oriented::OrientedBox;
+pub use oriented::{OrientedBox, TurningBox};
 pub use oriented_spatial::SpatialOrientedBox;
 pub use volume::Volume;
 
@@ -115,14 +115,17 @@ impl<V: Vector> BroadPhase<V> {
     }
 
     /// The same for a proxy that is on its way: the fat volume reaches as far ahead as it is expected to `travel` [m].
-    pub fn update_moving(&mut self, id: u32, volume: Volume<V>, travel: V, fat_margin: f64) {
+    ///
+    /// Returns whether the fat volume is a new one.
+    pub fn update_moving(&mut self, id: u32, volume: Volume<V>, travel: V, fat_margin: f64) -> bool {
         let fat = volume.swept(travel).grown(fat_margin);
         let Some(proxy) = self.proxy(id) else {
-            return self.place(id, fat);
+            self.place(id, fat);
+            return true;
         };
         let wide = 4.0 * (fat_margin + travel.length());
         if proxy.fat.contains(&volume) && volume.grown(wide).contains(&proxy.fat) {
-            return;
+            return false;
         }
         if let (Some(leaf), Volume::Box(bounds)) = (proxy.leaf, fat)
             && bounds.overlaps(&bounds)
@@ -134,6 +137,7 @@ impl<V: Vector> BroadPhase<V> {
             self.displace(id);
             self.place(id, fat);
         }
+        true
     }
 
     /// Asks the filter again about all pairs of a proxy at the next [`update_pairs`](Self::update_pairs).

@@ -11,7 +11,7 @@ use spatial::{
     query, rod, rotation, shape, sphere, swapped, turned, vector,
 };
 use tumble_collision::{
-    ContactKind, FeatureId, SpatialManifold, SpatialOrientedBox, SpatialQuery, collide_spatial as collide,
+    ContactKind, FeatureId, SpatialManifold, SpatialOrientedBox, SpatialQuery, TurningBox, collide_spatial as collide,
 };
 use tumble_math::{Pose, Rotation, Spatial, SpatialRotation};
 use tumble_shape::{Cone, ConvexHull, Cuboid, Cylinder, HalfSpace, SpatialShape};
@@ -417,6 +417,25 @@ proptest! {
         let touching = !collide(&a, &pose_a, &b, &pose_b, &query(2.0 * margin, 0.0)).is_empty();
         prop_assert!(box_a.overlaps(&box_b) || !touching);
         prop_assert_eq!(box_a.overlaps(&box_b), box_b.overlaps(&box_a));
+    }
+
+    #[test]
+    fn swept_and_grown_oriented_box_contains_what_it_passes_through_and_meets_all_that_meets_it(
+        a in shape(), b in shape(), pose_a in pose(0.5), pose_b in pose(2.0), travel in (-2.0..2.0_f64, -2.0..2.0_f64, -2.0..2.0_f64),
+        part in 0.0..1.0_f64, margin in 1e-9..0.5_f64,
+    ) {
+        let travel = DVec3::new(travel.0, travel.1, travel.2);
+        let moved = |by| Pose { position: pose_a.position + by, ..pose_a };
+        let around = |shape, pose| SpatialOrientedBox::around(shape, pose, 0.0).unwrap();
+        let (start, other) = (around(&a, &pose_a), around(&b, &pose_b));
+        let fat = start.swept(travel).grown(margin);
+        let on_the_way = around(&a, &moved(travel * part));
+        prop_assert!(fat.contains(&on_the_way));
+        prop_assert!(fat.overlaps(&other) || !on_the_way.overlaps(&other));
+        // Beyond the end by more than the margin along some side.
+        let beyond = travel + travel.normalize_or(DVec3::X) * (margin * 2.0);
+        prop_assert!(!fat.contains(&around(&a, &moved(beyond))));
+        prop_assert!(!start.contains(&fat));
     }
 
     #[test]

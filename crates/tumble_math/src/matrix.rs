@@ -25,10 +25,11 @@ pub trait Matrix<V: Vector>: Copy + Debug + Default + PartialEq + Send + Sync + 
 }
 
 macro_rules! matrix {
-    ($matrix:ty, $vector:ty, $from:expr) => {
+    ($matrix:ty, $vector:ty, $($axis:literal),+) => {
         impl Matrix<$vector> for $matrix {
+            #[inline]
             fn from_columns(column: impl Fn(usize) -> $vector) -> Self {
-                $from(&column)
+                Self::from_cols($(column($axis)),+)
             }
 
             #[inline]
@@ -54,5 +55,5 @@ macro_rules! matrix {
     };
 }
 
-matrix!(DMat2, DVec2, |column: &dyn Fn(usize) -> DVec2| DMat2::from_cols(column(0), column(1)));
-matrix!(DMat3, DVec3, |column: &dyn Fn(usize) -> DVec3| DMat3::from_cols(column(0), column(1), column(2)));
+matrix!(DMat2, DVec2, 0, 1);
+matrix!(DMat3, DVec3, 0, 1, 2);

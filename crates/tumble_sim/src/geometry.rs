@@ -5,7 +5,7 @@ mod spatial;
 
 use std::fmt::Debug;
 
-use tumble_collision::{ContactPoint, Volume};
+use tumble_collision::{ContactPoint, TurningBox, Volume};
 use tumble_math::Pose;
 use tumble_shape::{MassDim, MassProperties};
 use tumble_solver::SolverBody;
@@ -41,7 +41,7 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
     /// A shape.
     type Shape: Clone + Debug + PartialEq + Send + Sync + 'static;
     /// A box that turns with a shape.
-    type OrientedBox: Copy + Debug + Send + Sync + 'static;
+    type OrientedBox: TurningBox<Vector = Self::Vector> + Debug + Send + Sync + 'static;
     /// The contact points of two shapes.
     type Manifold: Clone + Debug + Default + Send + Sync + 'static;
     /// Something for each point of a manifold.
@@ -65,9 +65,6 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
 
     /// A close box around the shape of a body, grown by a margin [m]; `None` for one without bounds.
     fn oriented_box(shape: &Self::Shape, pose: &Pose<Self>, margin: f64) -> Option<Self::OrientedBox>;
-
-    /// Whether two boxes share a point.
-    fn boxes_overlap(one: &Self::OrientedBox, other: &Self::OrientedBox) -> bool;
 
     /// Largest distance of a point of the shape from the origin of its frame [m]; `None` for one without bounds.
     fn extent(shape: &Self::Shape) -> Option<f64>;

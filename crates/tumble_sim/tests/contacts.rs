@@ -9,7 +9,7 @@ use support::{block, body, bouncing, every, floor, rod, rough, simulation, weigh
 use tumble_math::{Linear, Planar};
 use tumble_shape::{ConvexPolygon, Rod};
 use tumble_sim::{
-    Amount, BodyId, BodyKind, Groups, IgnoredPairs, Keyframe, Keyframes, LinearVelocity, Part, Position, Response,
+    Amount, BodyId, BodyKind, Groups, IgnoredPairs, Integrator, Keyframe, Keyframes, LinearVelocity, Part, Position, Response,
     Settings, Simulation, Touch, TouchPhase,
 };
 use tumble_solver::Surface;
@@ -207,6 +207,23 @@ fn kinematic_body_follows_its_keyframes_and_carries_what_stands_on_it() {
     // Where the lift stops, the load flies on at (0.5, 0.5) m/s: 2 v_x v_y/g = 51 mm, v_x Δt either way; then it lies still.
     assert!((load - lift - dvec2(0.051, 0.35)).length() < 0.005, "load at {load}");
     assert!(Linear::length(body(&simulation, "load").velocity()) < 1e-9);
+}
+
+/// Ballistic bodies move by the mean of two velocities; a path is followed all the same, to round-off.
+#[test]
+fn keyframes_are_followed_exactly_by_ballistic_bodies_too() {
+    let settings = Settings { integrator: Integrator::Ballistic, ..every(0.01) };
+    let mut simulation: Simulation<Planar> = Simulation::new(settings);
+    let arm = block(1.0, 0.2, 1.0).kind(BodyKind::Kinematic).spawn(&mut simulation, "arm");
+    let frame = |time, x, angle| Keyframe { time, position: dvec2(x, 0.0), angle };
+    let path = [frame(0.0, 0.0, 0.0), frame(0.5, 1.0, 0.5), frame(1.0, 1.0, -0.5)];
+    simulation.world_mut().entity_mut(arm).insert(Keyframes(path.to_vec()));
+    for (time, x, angle) in [(0.25, 0.5, 0.25), (0.25, 1.0, 0.5), (0.3, 1.0, -0.1), (0.2, 1.0, -0.5)] {
+        simulation.run_for(time).unwrap();
+        let arm = body(&simulation, "arm");
+        assert!((arm.position() - dvec2(x, 0.0)).length() < 1e-12, "at {}", arm.position());
+        assert!((arm.angle() - angle).abs() < 1e-12, "turned by {}", arm.angle());
+    }
 }
 
 /// Three rods and a block that meet in the air, over a floor; `order` is the order of spawning.

@@ -112,3 +112,15 @@ pub fn tangential<V: Vector>(mut vector: V) -> V {
     vector[0] = 0.0;
     vector
 }
+
+/// The nearest tangential vector that is no longer than `bound`: the projection onto the friction disc, in the plane an interval.
+#[inline]
+pub(crate) fn within_disc<V: Vector>(mut tangential: V, bound: f64) -> V {
+    if V::AXES == 2 {
+        // No square root: it would take as long as everything else that a sweep does to a point.
+        tangential[1] = tangential[1].max(-bound).min(bound);
+        return tangential;
+    }
+    let squared = tangential.dot(tangential);
+    if squared > bound * bound { tangential * (bound / squared.sqrt()) } else { tangential }
+}

@@ -21,7 +21,7 @@
 
 use tumble_math::{Dim, Linear, Matrix, Vector};
 
-use crate::contact::tangential;
+use crate::contact::{tangential, within_disc};
 use crate::joint::Joints;
 use crate::{ContactRow, Ending, Report, Slip, SolverBody};
 
@@ -34,15 +34,24 @@ pub struct FilterSettings {
     pub tolerance: f64,
 }
 
-/// What a sweep needs of a row besides its geometry.
+/// What a sweep needs of a row, and no more.
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedRow<D: Dim> {
-    /// K in the contact frame [1/kg].
-    compliance: D::Matrix,
+    a: u32,
+    b: u32,
+    frame: D::Matrix,
+    arm_a: D::Vector,
+    arm_b: D::Vector,
+    allowance: f64,
+    /// The coefficient that bounds friction: μ_s or μ_k [1].
+    friction: f64,
+    impulse: D::Vector,
+    /// First column of K in the contact frame: what a normal impulse does [1/kg].
+    normal_response: D::Vector,
+    /// K_ii [1/kg].
+    diagonal: D::Vector,
     /// 1 / K_ii; 0 where nothing yields [kg].
     inverse_diagonal: D::Vector,
-    /// Friction impulse of the step before, in the contact frame [N·s].
-    friction_before: D::Vector,
 }
 
 /// Filters the velocities of `bodies` through touching contacts; `rows[i].impulse` and `slip` are updated.
@@ -81,15 +90,16 @@ fn filter<D: Dim>(
     settings: &FilterSettings,
 ) -> Report {
     prepared.clear();
-    prepared.extend(rows.iter().map(|row| prepare(row, bodies)));
+    prepared.extend(rows.iter().map(|row| PreparedRow::of(row, bodies)));
     for row in rows.iter() {
         row.apply(bodies, row.impulse);
     }
 
-    let first = sweep_until_still(bodies, rows, joints, prepared, settings);
+    let first = sweep_until_still(bodies, joints, prepared, settings);
     let mut any_changed = false;
-    for (row, prepared) in rows.iter_mut().zip(prepared.iter()) {
-        let passed_through_rest = tangential(row.impulse).dot(prepared.friction_before) < 0.0;
+    for (row, prepared) in rows.iter_mut().zip(prepared.iter_mut()) {
+        let passed_through_rest = tangential(prepared.impulse).dot(tangential(row.impulse)) < 0.0;
+        row.impulse = prepared.impulse;
         let slip = match row.slip {
             Slip::Sticking if slips(row, bodies, row.surface.static_friction, settings.tolerance) => Slip::Sliding,
             Slip::Sliding if passed_through_rest => Slip::Sticking,
@@ -97,12 +107,14 @@ fn filter<D: Dim>(
         };
         any_changed |= slip != row.slip;
         row.slip = slip;
+        prepared.friction = friction(row);
     }
     // The second stage begins near its answer.
     let again = FilterSettings { iterations: settings.iterations.div_ceil(2), ..*settings };
-    let second = any_changed.then(|| sweep_until_still(bodies, rows, joints, prepared, &again));
-    for row in rows.iter_mut().filter(|row| row.slip == Slip::Sliding) {
-        if !slips(row, bodies, row.surface.kinetic_friction, settings.tolerance) {
+    let second = any_changed.then(|| sweep_until_still(bodies, joints, prepared, &again));
+    for (row, prepared) in rows.iter_mut().zip(prepared.iter()) {
+        row.impulse = prepared.impulse;
+        if row.slip == Slip::Sliding && !slips(row, bodies, row.surface.kinetic_friction, settings.tolerance) {
             row.slip = Slip::Sticking;
         }
     }
@@ -111,14 +123,12 @@ fn filter<D: Dim>(
     Report { iterations: first.iterations + second_iterations, ..second.unwrap_or(first) }
 }
 
-fn prepare<D: Dim>(row: &ContactRow<D>, bodies: &[SolverBody<D>]) -> PreparedRow<D> {
-    let compliance = row.compliance(bodies);
-    let mut inverse_diagonal = D::Vector::ZERO;
-    for axis in 0..D::Vector::AXES {
-        let diagonal = compliance.column(axis)[axis];
-        inverse_diagonal[axis] = if diagonal > 0.0 { 1.0 / diagonal } else { 0.0 };
+/// The coefficient that bounds friction at a point [1].
+fn friction<D: Dim>(row: &ContactRow<D>) -> f64 {
+    match row.slip {
+        Slip::Sticking => row.surface.static_friction,
+        Slip::Sliding => row.surface.kinetic_friction,
     }
-    PreparedRow { compliance, inverse_diagonal, friction_before: tangential(row.impulse) }
 }
 
 /// Whether friction is used up and the point slips all the same.
@@ -131,9 +141,8 @@ fn slips<D: Dim>(row: &ContactRow<D>, bodies: &[SolverBody<D>], friction: f64, t
 
 fn sweep_until_still<D: Dim>(
     bodies: &mut [SolverBody<D>],
-    rows: &mut [ContactRow<D>],
     joints: &mut Option<Joints<'_, D>>,
-    prepared: &[PreparedRow<D>],
+    prepared: &mut [PreparedRow<D>],
     settings: &FilterSettings,
 ) -> Report {
     let mut report = Report::default();
@@ -143,11 +152,11 @@ fn sweep_until_still<D: Dim>(
     while report.iterations < settings.iterations {
         let backwards = report.iterations % 2 == 1;
         report.iterations += 1;
-        report.residual = 0.0;
-        for i in 0..rows.len() {
-            let i = if backwards { rows.len() - 1 - i } else { i };
-            report.residual = report.residual.max(solve_point(bodies, &mut rows[i], &prepared[i]));
-        }
+        let residual = |worst: f64, row: &mut PreparedRow<D>| worst.max(row.solve(bodies));
+        report.residual = match backwards {
+            false => prepared.iter_mut().fold(0.0, residual),
+            true => prepared.iter_mut().rev().fold(0.0, residual),
+        };
         if let Some(joints) = joints {
             joints.block.stop(bodies, joints.rows);
         }
@@ -159,34 +168,52 @@ fn sweep_until_still<D: Dim>(
     report
 }
 
-/// Solves one point with all others as they are: first its normal, then its friction; returns how much its speed changed [m/s].
-#[inline]
-fn solve_point<D: Dim>(bodies: &mut [SolverBody<D>], row: &mut ContactRow<D>, prepared: &PreparedRow<D>) -> f64 {
-    let PreparedRow { compliance, inverse_diagonal, .. } = prepared;
-    let velocity = row.relative_velocity(bodies);
-    let normal = (row.impulse[0] - (velocity[0] + row.allowance) * inverse_diagonal[0]).max(0.0);
-    // K says what the normal change does to the slip, so the bodies need to be asked only once.
-    let velocity = velocity + compliance.column(0) * (normal - row.impulse[0]);
+impl<D: Dim> PreparedRow<D> {
+    fn of(row: &ContactRow<D>, bodies: &[SolverBody<D>]) -> Self {
+        let compliance = row.compliance(bodies);
+        let (mut diagonal, mut inverse_diagonal) = (D::Vector::ZERO, D::Vector::ZERO);
+        for axis in 0..D::Vector::AXES {
+            diagonal[axis] = compliance.column(axis)[axis];
+            inverse_diagonal[axis] = if diagonal[axis] > 0.0 { 1.0 / diagonal[axis] } else { 0.0 };
+        }
+        Self {
+            a: row.a,
+            b: row.b,
+            frame: row.frame,
+            arm_a: row.arm_a,
+            arm_b: row.arm_b,
+            allowance: row.allowance,
+            friction: friction(row),
+            impulse: row.impulse,
+            normal_response: compliance.column(0),
+            diagonal,
+            inverse_diagonal,
+        }
+    }
 
-    let friction = match row.slip {
-        Slip::Sticking => row.surface.static_friction,
-        Slip::Sliding => row.surface.kinetic_friction,
-    };
-    let bound = friction * normal;
-    let tried = tangential(row.impulse - velocity.scale_by(*inverse_diagonal));
-    // Most points stick, and need no square root to know it.
-    let squared = tried.dot(tried);
-    let mut solved = if squared > bound * bound { tried * (bound / squared.sqrt()) } else { tried };
-    solved[0] = normal;
-    let change = solved - row.impulse;
-    if change == D::Vector::ZERO {
-        return 0.0;
+    /// Solves one point with all others as they are: first its normal, then its friction; returns how much its speed changed [m/s].
+    #[inline]
+    fn solve(&mut self, bodies: &mut [SolverBody<D>]) -> f64 {
+        let (mut a, mut b) = (bodies[self.a as usize], bodies[self.b as usize]);
+        let velocity = self.frame.apply_transposed(b.point_velocity(self.arm_b) - a.point_velocity(self.arm_a));
+        let normal = (self.impulse[0] - (velocity[0] + self.allowance) * self.inverse_diagonal[0]).max(0.0);
+        // K says what the normal change does to the slip, so the bodies need to be asked only once.
+        let velocity = velocity + self.normal_response * (normal - self.impulse[0]);
+
+        let tried = tangential(self.impulse - velocity.scale_by(self.inverse_diagonal));
+        let mut solved = within_disc(tried, self.friction * normal);
+        solved[0] = normal;
+        let change = solved - self.impulse;
+        if change == D::Vector::ZERO {
+            return 0.0;
+        }
+        self.impulse = solved;
+        let push = self.frame.apply(change);
+        b.apply_impulse(self.arm_b, push);
+        a.apply_impulse(self.arm_a, -push);
+        bodies[self.b as usize] = b;
+        bodies[self.a as usize] = a;
+        let speeds = change.scale_by(self.diagonal);
+        (0..D::Vector::AXES).map(|axis| speeds[axis].abs()).fold(0.0, f64::max)
     }
-    row.impulse = solved;
-    row.apply(bodies, change);
-    let mut worst: f64 = 0.0;
-    for axis in 0..D::Vector::AXES {
-        worst = worst.max(change[axis].abs() * compliance.column(axis)[axis]);
-    }
-    worst
 }

@@ -49,9 +49,11 @@ pub struct Displacements<D: Dim> {
     pushes: Vec<Push<D>>,
     /// Whether a row takes part.
     takes_part: Vec<bool>,
+    /// No point is farther from the centre of its body [m].
+    longest_arm: f64,
 }
 
-/// What a sweep needs of a row, and no more: in the plane one cache line.
+/// What a sweep needs of a row, and no more.
 #[derive(Clone, Copy, Debug)]
 struct Push<D: Dim> {
     row: u32,
@@ -62,13 +64,20 @@ struct Push<D: Dim> {
     turns: [D::Angular; 2],
     target: f64,
     sum: f64,
-    /// n · K n [1/kg].
-    compliance: f64,
+    /// 1 / (n · K n) [kg].
+    mass: f64,
 }
 
 impl<D: Dim> Default for Displacements<D> {
     fn default() -> Self {
-        Self { bodies: Vec::new(), targets: Vec::new(), sums: Vec::new(), pushes: Vec::new(), takes_part: Vec::new() }
+        Self {
+            bodies: Vec::new(),
+            targets: Vec::new(),
+            sums: Vec::new(),
+            pushes: Vec::new(),
+            takes_part: Vec::new(),
+            longest_arm: 0.0,
+        }
     }
 }
 
@@ -94,6 +103,8 @@ impl<D: Dim> Displacements<D> {
             return false;
         }
 
+        let arms = rows.iter().flat_map(|row| [row.arm_a.dot(row.arm_a), row.arm_b.dot(row.arm_b)]);
+        self.longest_arm = arms.fold(0.0, f64::max).sqrt();
         self.begin(bodies);
         self.sums.resize(rows.len(), 0.0);
         self.takes_part.clear();
@@ -122,8 +133,12 @@ impl<D: Dim> Displacements<D> {
     /// Lets rows take part that go too far as things are; returns whether there were any.
     fn admit(&mut self, rows: &[ContactRow<D>]) -> bool {
         let known = self.pushes.len();
+        let farthest = self.farthest();
         for (i, row) in rows.iter().enumerate() {
-            if !self.takes_part[i] && self.targets[i] > row.separating_speed(&self.bodies) {
+            if self.targets[i] >= -farthest
+                && !self.takes_part[i]
+                && self.targets[i] > row.separating_speed(&self.bodies)
+            {
                 let compliance = row.normal_compliance(&self.bodies);
                 // A gap between two bodies that cannot move stays as it is.
                 if compliance > 0.0 {
@@ -138,6 +153,13 @@ impl<D: Dim> Displacements<D> {
             self.pushes.sort_by_key(|push| push.row);
         }
         grew
+    }
+
+    /// No gap closes by more than this through the displacements so far [m].
+    fn farthest(&self) -> f64 {
+        let moved = |body: &SolverBody<D>| body.velocity.length() + body.angular_velocity.length() * self.longest_arm;
+        // Both bodies of a pair, and the rounding of all this.
+        2.0 * (1.0 + 1e-9) * self.bodies.iter().map(moved).fold(0.0, f64::max)
     }
 
     /// Sweeps a few times over the rows that take part; returns whether they still move.
@@ -167,7 +189,7 @@ impl<D: Dim> Push<D> {
     fn of(index: u32, row: &ContactRow<D>, target: f64, compliance: f64) -> Self {
         let normal = row.normal();
         let turns = [D::torque(row.arm_a, normal), D::torque(row.arm_b, normal)];
-        Self { row: index, a: row.a, b: row.b, normal, turns, target, sum: 0.0, compliance }
+        Self { row: index, a: row.a, b: row.b, normal, turns, target, sum: 0.0, mass: 1.0 / compliance }
     }
 
     /// Solves one point with all others as they are; returns how far it moved [m].
@@ -176,7 +198,7 @@ impl<D: Dim> Push<D> {
         let (a, b) = (&bodies[self.a as usize], &bodies[self.b as usize]);
         let shifted = self.normal.dot(b.velocity - a.velocity);
         let turned = self.turns[1].dot(b.angular_velocity) - self.turns[0].dot(a.angular_velocity);
-        let sum = (self.sum + (self.target - shifted - turned) / self.compliance).max(0.0);
+        let sum = (self.sum + (self.target - shifted - turned) * self.mass).max(0.0);
         let change = sum - self.sum;
         if change == 0.0 {
             return 0.0;
@@ -189,7 +211,7 @@ impl<D: Dim> Push<D> {
         let a = &mut bodies[self.a as usize];
         a.velocity -= push.scale_by(a.inverse_mass);
         a.angular_velocity -= a.inverse_inertia.apply(self.turns[0] * change);
-        change.abs() * self.compliance
+        change.abs() / self.mass
     }
 }
 

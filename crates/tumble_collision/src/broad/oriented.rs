@@ -11,6 +11,24 @@ use glam::DVec2;
 use tumble_math::{Planar, Pose, Rotation};
 use tumble_shape::PlanarShape;
 
+/// A box with sides of its own directions.
+pub trait TurningBox: Copy {
+    /// A point.
+    type Vector;
+
+    /// Whether two boxes share a point; touching counts.
+    fn overlaps(&self, other: &Self) -> bool;
+
+    /// Whether another box lies inside.
+    fn contains(&self, other: &Self) -> bool;
+
+    /// The box grown by a margin on every side [m].
+    fn grown(self, margin: f64) -> Self;
+
+    /// A box with the same directions around all that this one passes through as it moves by `travel` [m].
+    fn swept(self, travel: Self::Vector) -> Self;
+}
+
 /// A box that turns with a shape of the plane, in world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrientedBox {
@@ -39,16 +57,39 @@ impl OrientedBox {
         })
     }
 
-    /// Whether two boxes share a point; touching counts.
-    #[inline]
-    pub fn overlaps(&self, other: &Self) -> bool {
-        let between = other.centre - self.centre;
+    /// Half the extents of another box along the sides of this one [m].
+    fn seen(&self, other: &Self) -> DVec2 {
         let cos = self.along.dot(other.along).abs();
         let sin = self.along.perp_dot(other.along).abs();
-        // Half the extent of one box along the sides of another.
-        let seen = |half: DVec2| DVec2::new(cos * half.x + sin * half.y, sin * half.x + cos * half.y);
-        let apart =
-            |along: DVec2, reach: DVec2| along.dot(between).abs() > reach.x || along.perp_dot(between).abs() > reach.y;
-        !apart(self.along, self.half + seen(other.half)) && !apart(other.along, other.half + seen(self.half))
+        DVec2::new(cos * other.half.x + sin * other.half.y, sin * other.half.x + cos * other.half.y)
+    }
+
+    /// The sizes of a vector along the sides.
+    fn along_sides(&self, vector: DVec2) -> DVec2 {
+        DVec2::new(self.along.dot(vector).abs(), self.along.perp_dot(vector).abs())
+    }
+}
+
+impl TurningBox for OrientedBox {
+    type Vector = DVec2;
+
+    #[inline]
+    fn overlaps(&self, other: &Self) -> bool {
+        let between = other.centre - self.centre;
+        let meets = |one: &Self, other: &Self| one.along_sides(between).cmple(one.half + one.seen(other)).all();
+        meets(self, other) && meets(other, self)
+    }
+
+    #[inline]
+    fn contains(&self, other: &Self) -> bool {
+        (self.along_sides(other.centre - self.centre) + self.seen(other)).cmple(self.half).all()
+    }
+
+    fn grown(self, margin: f64) -> Self {
+        Self { half: self.half + DVec2::splat(margin), ..self }
+    }
+
+    fn swept(self, travel: DVec2) -> Self {
+        Self { centre: self.centre + travel * 0.5, half: self.half + self.along_sides(travel) * 0.5, ..self }
     }
 }

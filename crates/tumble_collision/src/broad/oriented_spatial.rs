@@ -4,6 +4,8 @@ use glam::{DMat3, DVec3};
 use tumble_math::{Pose, Rotation, Spatial};
 use tumble_shape::SpatialShape;
 
+use super::oriented::TurningBox;
+
 /// A box that turns with a shape of space, in world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpatialOrientedBox {
@@ -50,11 +52,18 @@ impl SpatialOrientedBox {
         })
     }
 
-    /// Whether two boxes share a point; touching counts.
-    ///
-    /// The axes of both boxes and the nine cross products of them (Gottschalk 1996). Where two axes are parallel their product is no
+    /// The sizes of a vector along the sides.
+    fn along_sides(&self, vector: DVec3) -> DVec3 {
+        (self.axes.transpose() * vector).abs()
+    }
+}
+
+impl TurningBox for SpatialOrientedBox {
+    type Vector = DVec3;
+
+    /// By the axes of both boxes and the nine cross products of them (Gottschalk 1996). Where two axes are parallel their product is no
     /// axis; there both sides of the comparison are rounding, and the slack keeps it from telling the boxes apart.
-    pub fn overlaps(&self, other: &Self) -> bool {
+    fn overlaps(&self, other: &Self) -> bool {
         const SLACK: f64 = 1e-12;
         let back = self.axes.transpose();
         let t = back * (other.centre - self.centre);
@@ -76,5 +85,20 @@ impl SpatialOrientedBox {
                 distance <= h[k] * abs[j][l] + h[l] * abs[j][k] + g[j1] * abs[j2][i] + g[j2] * abs[j1][i]
             })
         })
+    }
+
+    fn contains(&self, other: &Self) -> bool {
+        let seen = self.along_sides(other.axes.x_axis) * other.half.x
+            + self.along_sides(other.axes.y_axis) * other.half.y
+            + self.along_sides(other.axes.z_axis) * other.half.z;
+        (self.along_sides(other.centre - self.centre) + seen).cmple(self.half).all()
+    }
+
+    fn grown(self, margin: f64) -> Self {
+        Self { half: self.half + DVec3::splat(margin), ..self }
+    }
+
+    fn swept(self, travel: DVec3) -> Self {
+        Self { centre: self.centre + travel * 0.5, half: self.half + self.along_sides(travel) * 0.5, ..self }
     }
 }

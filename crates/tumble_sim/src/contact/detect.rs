@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use bevy_ecs::prelude::*;
-use tumble_collision::{BroadPhase, PairChanges};
+use tumble_collision::{BroadPhase, PairChanges, TurningBox};
 use tumble_math::{Dim, Linear, Pose};
 
 use super::colliders::may_touch;
@@ -58,12 +58,9 @@ pub struct Detection<D: Geometry> {
     motions: Vec<BodyMotion<D>>,
     /// Where each part may be until the end of the next step; `None` for a part without bounds.
     boxes: Vec<Option<D::OrientedBox>>,
+    /// The same with the margins of fat volumes: two parts are a pair while both overlap.
+    fat_boxes: Vec<Option<D::OrientedBox>>,
     pairs: HashMap<PairKey, Entity>,
-    /// Solid pairs that have contact points, in the order of their parts.
-    solid: Vec<([u32; 2], Entity)>,
-    /// Scratch space of the sorting of pairs.
-    unsorted: Vec<([u32; 2], Entity)>,
-    starts: Vec<u32>,
     ranks: Ranks,
     touches: Vec<Touch>,
 }
@@ -86,10 +83,8 @@ impl<D: Geometry> Default for Detection<D> {
             changes: PairChanges::default(),
             motions: Vec::new(),
             boxes: Vec::new(),
+            fat_boxes: Vec::new(),
             pairs: HashMap::new(),
-            solid: Vec::new(),
-            unsorted: Vec::new(),
-            starts: Vec::new(),
             ranks: Ranks::Forgotten,
             touches: Vec::new(),
         }
@@ -102,41 +97,9 @@ impl<D: Geometry> Detection<D> {
         &self.motions
     }
 
-    /// Entities of the solid pairs that have contact points: in the order of their parts, or every [`STRIDE`]th of it in turn where
-    /// there are many.
-    pub(super) fn solid_pairs(&self) -> impl Iterator<Item = Entity> {
-        let stride = if self.solid.len() > PAIRS_IN_ORDER { STRIDE } else { 1 };
-        (0..stride.min(self.solid.len()))
-            .flat_map(move |first| self.solid[first..].iter().step_by(stride))
-            .map(|(_, entity)| *entity)
-    }
-
     /// Number of pairs whose grown bounds overlap.
     pub fn pair_count(&self) -> usize {
         self.pairs.len()
-    }
-
-    /// Sorts the solid pairs by their parts: by counting for the first, which is much quicker than comparing, then each few by the second.
-    fn sort_solid_pairs(&mut self, parts: usize) {
-        std::mem::swap(&mut self.solid, &mut self.unsorted);
-        self.starts.clear();
-        self.starts.resize(parts + 1, 0);
-        for ([first, _], _) in &self.unsorted {
-            self.starts[*first as usize + 1] += 1;
-        }
-        for part in 0..parts {
-            self.starts[part + 1] += self.starts[part];
-        }
-        self.solid.clear();
-        self.solid.extend_from_slice(&self.unsorted);
-        for pair in &self.unsorted {
-            let place = &mut self.starts[pair.0[0] as usize];
-            self.solid[*place as usize] = *pair;
-            *place += 1;
-        }
-        for few in self.solid.chunk_by_mut(|one, other| one.0[0] == other.0[0]) {
-            few.sort_unstable_by_key(|(parts, _)| parts[1]);
-        }
     }
 
     /// Forgets all ranks: bodies or parts were added or removed.
@@ -146,11 +109,6 @@ impl<D: Geometry> Detection<D> {
     }
 }
 
-/// Up to this many solid pairs are solved in the order of their parts.
-const PAIRS_IN_ORDER: usize = 400;
-/// Beyond, neighbours in the order of solving are this many pairs apart, so that they rarely share a body: the processor works at
-/// several at once instead of waiting for each, and a sweep spreads its changes over the whole pile.
-const STRIDE: usize = 16;
 /// Margin of fat bounds beyond the travel that they foresee, in length scales: larger finds pairs anew less often.
 const FAT_MARGIN: f64 = 0.05;
 /// Steps of steady motion that fat bounds allow for: more finds pairs anew less often [1].
@@ -196,6 +154,7 @@ pub fn find_pairs<D: Geometry>(
     }
     detection.motions.resize_with(table.entries().len(), BodyMotion::default);
     detection.boxes.resize(colliders.as_slice().len(), None);
+    detection.fat_boxes.resize(colliders.as_slice().len(), None);
     let fat_margin = FAT_MARGIN * settings.length_scale;
     let limit = settings.speculative_limit();
     for (index, position, orientation, velocity, spin, acceleration, angular_acceleration) in &bodies {
@@ -226,14 +185,26 @@ pub fn find_pairs<D: Geometry>(
         let ahead = velocity.0 * (STEPS_AHEAD * clock.dt).min(STEPS_AHEAD * limit / speed);
         for part in parts {
             let shape = &colliders.as_slice()[part].shape;
-            detection.boxes[part] = D::oriented_box(shape, &pose, reach);
+            let bounds = D::oriented_box(shape, &pose, reach);
+            detection.boxes[part] = bounds;
             let volume = D::volume(shape, &pose).grown(reach);
-            detection.broad.update_moving(part as u32, volume, ahead, fat_margin + (turning * clock.dt).min(limit));
+            let margin = fat_margin + (turning * clock.dt).min(limit);
+            let renewed = detection.broad.update_moving(part as u32, volume, ahead, margin);
+            let fat = &mut detection.fat_boxes[part];
+            let strayed = matches!((&fat, &bounds), (Some(fat), Some(bounds)) if !fat.contains(bounds));
+            if renewed || strayed {
+                *fat = bounds.map(|bounds| bounds.swept(ahead).grown(margin));
+                detection.broad.touch(part as u32);
+            }
         }
     }
     detection.ranks = if detection.ranks == Ranks::Forgotten { Ranks::Renewed } else { Ranks::Known };
     let list = colliders.as_slice();
-    let filter = |a: u32, b: u32| may_touch(&list[a as usize], &list[b as usize], &table, &ignored, &joints);
+    let filter = |a: u32, b: u32| {
+        // Long thin parts that lie askew are far apart in overlapping bounds.
+        !matches!([a, b].map(|part| &detection.fat_boxes[part as usize]), [Some(a), Some(b)] if !a.overlaps(b))
+            && may_touch(&list[a as usize], &list[b as usize], &table, &ignored, &joints)
+    };
     detection.broad.update_pairs(filter, &mut detection.changes);
 }
 
@@ -360,7 +331,7 @@ pub fn find_contacts<D: Geometry>(
     settings: Res<Settings<D>>,
     colliders: Res<Colliders<D>>,
     mut detection: ResMut<Detection<D>>,
-    mut pairs: Query<(Entity, &mut ContactPair, &mut ContactManifold<D>, &mut ContactMemory<D>)>,
+    mut pairs: Query<(&mut ContactPair, &mut ContactManifold<D>, &mut ContactMemory<D>)>,
     mut messages: ResMut<Messages<Touch>>,
     clock: Res<Clock>,
     beginning: Res<Beginning>,
@@ -373,12 +344,11 @@ pub fn find_contacts<D: Geometry>(
     let detection = &mut *detection;
     let touch_tolerance = settings.touch_tolerance();
     let keep_tolerance = touch_tolerance.max(KEEP_TOLERANCE * settings.slop());
-    detection.solid.clear();
-    for (entity, mut pair, mut manifold, mut memory) in &mut pairs {
+    for (mut pair, mut manifold, mut memory) in &mut pairs {
         let pair = pair.bypass_change_detection();
-        // Fat bounds overlap long before the parts can meet, most of all those of long thin parts.
+        // Fat bounds overlap long before the parts can meet.
         let boxes = pair.colliders.map(|collider| detection.boxes[collider as usize].as_ref());
-        let apart = matches!(boxes, [Some(a), Some(b)] if !D::boxes_overlap(a, b));
+        let apart = matches!(boxes, [Some(a), Some(b)] if !a.overlaps(b));
         if apart && !pair.touching {
             if !D::points(&manifold.0).is_empty() {
                 manifold.bypass_change_detection().0 = D::Manifold::default();
@@ -414,13 +384,8 @@ pub fn find_contacts<D: Geometry>(
                 .map(|(phase, time)| Touch { phase, pair: pair.key, response: pair.response, time });
             detection.touches.extend([ended, began]);
         }
-        if pair.response == Response::Solid && !D::points(&found).is_empty() {
-            detection.solid.push((pair.colliders, entity));
-        }
         manifold.bypass_change_detection().0 = found;
     }
-    // Pairs come in the order of their birth; anything computed from them goes by the order of their parts.
-    detection.sort_solid_pairs(colliders.as_slice().len());
     if !detection.touches.is_empty() {
         detection.touches.sort_by(|one, other| {
             one.time.total_cmp(&other.time).then((one.pair, one.phase).cmp(&(other.pair, other.phase)))

@@ -26,6 +26,7 @@ use crate::fault::Fault;
 use crate::geometry::Geometry;
 use crate::joint::JointProblem;
 use crate::notice::Notices;
+use crate::part::Response;
 use crate::{Clock, Settings};
 
 use flight::{Course, Meeting, Point, PointState};
@@ -134,7 +135,7 @@ pub fn look_for_impacts<D: Geometry>(
         }
         Pass::GivenUp => {
             notices.too_many_impacts(clock.step + 1);
-            land_all(&detection, &mut pairs);
+            land_all(&mut pairs);
             return;
         }
     }
@@ -166,12 +167,10 @@ pub fn look_for_impacts<D: Geometry>(
         velocity.bypass_change_detection().0 = previous.linear;
         spin.bypass_change_detection().0 = previous.angular;
     }
-    for entity in detection.solid_pairs() {
-        if let Ok((.., mut memory)) = pairs.get_mut(entity) {
-            for point in memory.bypass_change_detection().0.as_mut() {
-                let point: &mut PointMemory<D::Vector> = point;
-                point.pending = D::Vector::ZERO;
-            }
+    for (.., mut memory) in &mut pairs {
+        for point in memory.bypass_change_detection().0.as_mut() {
+            let point: &mut PointMemory<D::Vector> = point;
+            point.pending = D::Vector::ZERO;
         }
     }
 }
@@ -188,11 +187,9 @@ where
 }
 
 /// No point flies any more: contacts are answered as without cuts.
-fn land_all<D: Geometry>(detection: &Detection<D>, pairs: &mut PairQuery<D>) {
-    for entity in detection.solid_pairs() {
-        if let Ok((.., mut memory)) = pairs.get_mut(entity) {
-            memory.bypass_change_detection().0.as_mut().iter_mut().for_each(|point| point.flies = false);
-        }
+fn land_all<D: Geometry>(pairs: &mut PairQuery<D>) {
+    for (.., mut memory) in pairs {
+        memory.bypass_change_detection().0.as_mut().iter_mut().for_each(|point| point.flies = false);
     }
 }
 
@@ -209,8 +206,10 @@ impl<D: Geometry> ImpactTimes<D> {
         let Self { courses, flights, points, .. } = self;
         flights.clear();
         points.clear();
-        for entity in detection.solid_pairs() {
-            let Ok((_, pair, manifold, memory)) = pairs.get(entity) else { continue };
+        for (entity, pair, manifold, memory) in pairs {
+            if pair.response == Response::Sensor || D::points(&manifold.0).is_empty() {
+                continue;
+            }
             let meeting = Meeting::new(pair, manifold, colliders, detection, courses, settings);
             let first = points.len();
             let poses = pair.bodies.map(|body| courses[body as usize].from);

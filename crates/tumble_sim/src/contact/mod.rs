@@ -9,6 +9,7 @@
 mod approach;
 mod colliders;
 mod detect;
+mod found;
 mod impact_time;
 mod materials;
 mod pair;

@@ -6,7 +6,8 @@ use tumble_solver::contact::tangential;
 use tumble_solver::penalty::{self, LectureFloor, SpringDamper};
 use tumble_solver::{ContactRow, Slip, SolverBody};
 
-use super::problem::{BodyQuery, ContactProblem, PairQuery, Points};
+use super::found::Points;
+use super::problem::{BodyQuery, ContactProblem, PairQuery};
 use super::{Colliders, ContactPair, Detection};
 use crate::body::{BodyTable, Force, Torque};
 use crate::geometry::Geometry;

@@ -7,6 +7,7 @@ use tumble_solver::resting_lcp::RestingReport;
 use tumble_solver::velocity_lcp::VelocityReport;
 use tumble_solver::{ContactRow, Ending, Report, SolverBody};
 
+use super::found::{FoundPoints, Points};
 use super::{ContactManifold, ContactMemory, ContactPair, Detection};
 use crate::Settings;
 use crate::body::{
@@ -70,7 +71,7 @@ pub struct ContactProblem<D: Geometry> {
     pub(super) touching: usize,
     /// How many rows, from the first, the velocity filter is to hold.
     pub(super) resting: usize,
-    near: Vec<(ContactRow<D>, RowSource)>,
+    found: FoundPoints<D>,
     /// Velocities at the start of the part of the step, by rank.
     starts: Vec<SolverBody<D>>,
     pub(super) prepared: Vec<PreparedRow<D>>,
@@ -98,7 +99,7 @@ impl<D: Geometry> Default for ContactProblem<D> {
             sources: Vec::new(),
             touching: 0,
             resting: 0,
-            near: Vec::new(),
+            found: FoundPoints::default(),
             starts: Vec::new(),
             prepared: Vec::new(),
             given: Vec::new(),
@@ -126,62 +127,18 @@ pub(crate) type BodyQuery<'w, 's, D> = Query<
 pub(super) type PairQuery<'w, 's, D> =
     Query<'w, 's, (Entity, &'static ContactPair, &'static ContactManifold<D>, &'static mut ContactMemory<D>)>;
 
-/// Which points are wanted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Points {
-    /// Those that touch.
-    Touching,
-    /// Those with a gap as well.
-    Near,
-}
-
 impl<D: Geometry> ContactProblem<D> {
     /// Gathers the points of solid pairs.
     pub(super) fn gather_rows(&mut self, detection: &Detection<D>, pairs: &PairQuery<D>, wanted: Points) {
-        self.rows.clear();
-        self.sources.clear();
-        self.near.clear();
-        for entity in detection.solid_pairs() {
-            let Ok((_, pair, manifold, memory)) = pairs.get(entity) else { continue };
-            if wanted == Points::Touching && !pair.touching {
-                continue;
-            }
-            let frame = D::contact_frame(D::normal(&manifold.0));
-            let [a, b] = pair.bodies;
-            let [at_a, at_b] = pair.bodies.map(|body| detection.motions()[body as usize].pose.position);
-            let points = D::points(&manifold.0).iter().zip(memory.0.as_ref());
-            for (number, (point, memory)) in points.enumerate() {
-                let row = ContactRow {
-                    a,
-                    b,
-                    frame,
-                    arm_a: point.point - at_a,
-                    arm_b: point.point - at_b,
-                    separation: point.separation,
-                    allowance: 0.0,
-                    surface: pair.surface,
-                    impulse: memory.impulse,
-                    slip: memory.slip,
-                };
-                let source = RowSource {
-                    entity,
-                    point: number as u8,
-                    held: memory.held,
-                    separation_before: memory.separation_before,
-                    held_back: memory.held_back,
-                };
-                if memory.touches {
-                    self.rows.push(row);
-                    self.sources.push(source);
-                } else if wanted == Points::Near {
-                    self.near.push((row, source));
-                }
-            }
-        }
-        self.touching = self.rows.len();
-        for (row, source) in self.near.drain(..) {
-            self.rows.push(row);
-            self.sources.push(source);
+        let Self { rows, sources, found, .. } = self;
+        rows.clear();
+        sources.clear();
+        found.find(detection, pairs, wanted);
+        found.sort();
+        found.pour(Points::Touching, rows, sources);
+        self.touching = rows.len();
+        if wanted == Points::Near {
+            found.pour(Points::Near, rows, sources);
         }
     }
 

@@ -11,7 +11,8 @@ use tumble_solver::velocity_lcp::{Rebound, VelocityLcp};
 use tumble_solver::{ContactRow, Slip, SolverBody};
 
 use super::approach::{Reading, at_impact};
-use super::problem::{BodyQuery, ContactProblem, ContactReport, PairQuery, Points};
+use super::found::Points;
+use super::problem::{BodyQuery, ContactProblem, ContactReport, PairQuery};
 use super::{Detection, RestingModel};
 use crate::body::BodyTable;
 use crate::fault::Fault;

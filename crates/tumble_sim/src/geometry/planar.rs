@@ -37,11 +37,6 @@ impl Geometry for Planar {
         OrientedBox::around(shape, pose, margin)
     }
 
-    #[inline]
-    fn boxes_overlap(one: &OrientedBox, other: &OrientedBox) -> bool {
-        one.overlaps(other)
-    }
-
     fn extent(shape: &PlanarShape) -> Option<f64> {
         shape.extent_about(DVec2::ZERO)
     }

@@ -44,11 +44,6 @@ impl Geometry for Spatial {
         SpatialOrientedBox::around(shape, pose, margin)
     }
 
-    #[inline]
-    fn boxes_overlap(one: &SpatialOrientedBox, other: &SpatialOrientedBox) -> bool {
-        one.overlaps(other)
-    }
-
     fn extent(shape: &SpatialShape) -> Option<f64> {
         shape.extent_about(DVec3::ZERO)
     }

@@ -78,7 +78,7 @@ impl Contact {
 
     /// p(y).
     fn push(&self, wish: [f64; 2]) -> [f64; 2] {
-        [wish[0].max(self.held), wish[1].clamp(-self.bound, self.bound)]
+        [wish[0].max(self.held), wish[1].max(-self.bound).min(self.bound)]
     }
 
     fn yielding(&self, wish: [f64; 2]) -> Yielding {
