@@ -425,8 +425,8 @@ proptest! {
         part in 0.0..1.0_f64, margin in 1e-9..0.5_f64,
     ) {
         let travel = DVec3::new(travel.0, travel.1, travel.2);
-        let moved = |by| Pose { position: pose_a.position + by, ..pose_a };
-        let around = |shape, pose| SpatialOrientedBox::around(shape, pose, 0.0).unwrap();
+        let moved = |by: DVec3| Pose::<Spatial> { position: pose_a.position + by, rotation: pose_a.rotation };
+        let around = |shape: &SpatialShape, pose: &Pose<Spatial>| SpatialOrientedBox::around(shape, pose, 0.0).unwrap();
         let (start, other) = (around(&a, &pose_a), around(&b, &pose_b));
         let fat = start.swept(travel).grown(margin);
         let on_the_way = around(&a, &moved(travel * part));

@@ -9,8 +9,8 @@ use support::{block, body, bouncing, every, floor, rod, rough, simulation, weigh
 use tumble_math::{Linear, Planar};
 use tumble_shape::{ConvexPolygon, Rod};
 use tumble_sim::{
-    Amount, BodyId, BodyKind, Groups, IgnoredPairs, Integrator, Keyframe, Keyframes, LinearVelocity, Part, Position, Response,
-    Settings, Simulation, Touch, TouchPhase,
+    Amount, BodyId, BodyKind, Groups, IgnoredPairs, Integrator, Keyframe, Keyframes, LinearVelocity, Part, Position,
+    Response, Settings, Simulation, Touch, TouchPhase,
 };
 use tumble_solver::Surface;
 
