@@ -125,7 +125,8 @@
 //!
 //! A [`Scene`](scene::format::Scene) is plain data, read from RON with all mistakes of a file reported at once. It carries expectations, each with a tolerance
 //! and a reason, so that a scene is its own test: [run it](scene::Check::run_scene) and [check it](scene::Check::check). A world built in code can be
-//! [written as a scene](scene::ToScene). The format is [`scene::format`].
+//! [written as a scene](scene::ToScene). The format is [`scene::format`]. A file with `dimension: Spatial` is a scene of space:
+//! [`AnyLoaded`](scene::AnyLoaded) reads scenes of either dimension, [`Loaded::<Spatial>`](scene::Loaded) those of space.
 //!
 //! ```
 //! use tumble::prelude::*;
@@ -193,7 +194,7 @@
 //! One-by-one impulses answer the simultaneous impacts of one body in an order, and the order shows: a rod that lands flat on both ends with
 //! ε < 1 leaves with a little spin (example 08). Penalty contact sinks and creeps. A body that moves further in one step than
 //! [contacts are made beforehand](sim::Settings::speculative_limit) may pass through thin things, and is [reported](sim::Notices). Newton's restitution with
-//! friction can create energy in rare configurations. In space there are no scene files and recordings yet.
+//! friction can create energy in rare configurations.
 //!
 //! ```
 //! use tumble::prelude::*;

@@ -5,10 +5,17 @@ use std::error::Error;
 use tumble::prelude::*;
 use tumble::scene::format::ContactModel;
 use tumble::scene::shipped::SHIPPED;
+use tumble::scene::{AnyLoaded, Loaded, SceneDim};
 
 /// Runs a scene under each model that it says something about.
 fn keeps_its_promises(name: &str) -> Result<(), Box<dyn Error>> {
-    let loaded = Shipped::named(name).ok_or("no such scene")?.load()?;
+    match Shipped::named(name).ok_or("no such scene")?.load_any()? {
+        AnyLoaded::Planar(loaded) => keeps_promises(name, &loaded),
+        AnyLoaded::Spatial(loaded) => keeps_promises(name, &loaded),
+    }
+}
+
+fn keeps_promises<D: SceneDim>(name: &str, loaded: &Loaded<D>) -> Result<(), Box<dyn Error>> {
     assert!(!loaded.scene.expect.is_empty(), "a shipped scene promises something");
     for model in ContactModel::ALL {
         let own = loaded.scene.contact == model;
@@ -78,4 +85,17 @@ scenes! {
     three_discs,
     thrown_uphill,
     wedge,
+    box_corner_impact,
+    box_stack_3d,
+    domino_spiral,
+    edge_edge,
+    gyroscope,
+    incline_3d,
+    opening_pile,
+    rolling_ball,
+    slip_to_roll,
+    symmetric_precession,
+    t_handle,
+    table_four_legs,
+    vertex_face,
 }

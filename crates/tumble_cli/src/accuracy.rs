@@ -2,7 +2,7 @@
 //!
 //! The figures are errors of expectations of shipped scenes, whether the scene claims them for a model or not. They are the same on every machine.
 
-use tumble_scene::Loaded;
+use tumble_scene::AnyLoaded;
 use tumble_scene::format::ContactModel;
 use tumble_scene::shipped::Shipped;
 
@@ -119,7 +119,7 @@ impl Figure {
     fn measure(&self, model: ContactModel) -> Result<Cell, Failure> {
         let shipped = Shipped::named(self.scene);
         let source = shipped.map(Source::Shipped).ok_or_else(|| self.missing("the scene"))?;
-        let mut loaded: Loaded = source.load()?;
+        let AnyLoaded::Planar(mut loaded) = source.load()? else { return Err(self.missing("a scene of the plane")) };
         loaded.scene.expect.iter_mut().for_each(|expectation| expectation.claim_under_all());
         let dt = loaded.scene.dt;
         let overrides = Overrides { contact: Some(model), ..Overrides::default() };

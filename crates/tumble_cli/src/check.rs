@@ -1,8 +1,8 @@
 //! `tumble check`: mistakes, warnings, masses and surfaces of scenes, without running anything.
 
-use tumble_math::Planar;
+use tumble_math::{Planar, Spatial, SymmetricTensor, Vector};
 use tumble_scene::materials::ResolvedPair;
-use tumble_scene::{FromScene, Loaded, meetings};
+use tumble_scene::{AnyLoaded, FromScene, Loaded, SceneDim, meetings};
 use tumble_sim::{BodyKind, BodyTable, Simulation};
 
 use crate::args::CheckArguments;
@@ -27,17 +27,23 @@ pub fn check(arguments: &CheckArguments, page: &mut Page) -> Result<Exit, Failur
 }
 
 fn check_one(source: &Source, page: &mut Page) -> Result<(), Failure> {
-    let loaded = source.load()?;
-    let simulation = Simulation::from_loaded(&loaded).map_err(|error| Failure::of_build(&source.label(), error))?;
+    match source.load()? {
+        AnyLoaded::Planar(loaded) => check_loaded(source, &loaded, page),
+        AnyLoaded::Spatial(loaded) => check_loaded(source, &loaded, page),
+    }
+}
+
+fn check_loaded<D: Moments>(source: &Source, loaded: &Loaded<D>, page: &mut Page) -> Result<(), Failure> {
+    let simulation = Simulation::from_loaded(loaded).map_err(|error| Failure::of_build(&source.label(), error))?;
     if !loaded.warnings.is_empty() {
         tell(loaded.warnings.render(stderr_color()));
     }
-    page.line(format!("{}: {}", source.label(), contents(&loaded, &simulation)));
+    page.line(format!("{}: {}", source.label(), contents(loaded, &simulation)));
     page.line("");
     for line in masses(&simulation) {
         page.line(line);
     }
-    let surfaces = surfaces(&loaded);
+    let surfaces = surfaces(loaded);
     if !surfaces.is_empty() {
         page.line("");
     }
@@ -48,7 +54,7 @@ fn check_one(source: &Source, page: &mut Page) -> Result<(), Failure> {
 }
 
 /// What is in the scene, in a line.
-fn contents(loaded: &Loaded, simulation: &Simulation<Planar>) -> String {
+fn contents<D: SceneDim>(loaded: &Loaded<D>, simulation: &Simulation<D>) -> String {
     let scene = &loaded.scene;
     let bodies = simulation.world().resource::<BodyTable>().entries().len();
     let mut counts = vec![(bodies, "body")];
@@ -67,10 +73,49 @@ fn contents(loaded: &Loaded, simulation: &Simulation<Planar>) -> String {
     if words.is_empty() { "empty".to_owned() } else { words.join(", ") }
 }
 
-/// Mass, centre of mass at the start and inertia of every body.
-fn masses(simulation: &Simulation<Planar>) -> Vec<String> {
-    let heads = ["body", "kind", "mass [kg]", "centre x [m]", "y [m]", "inertia [kg·m²]"];
-    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+/// How inertia is printed.
+trait Moments: SceneDim {
+    /// Heads of the columns of a centre of mass and of an inertia.
+    const HEADS: &'static [&'static str];
+
+    /// An inertia, a number for each of its columns.
+    fn moments(inertia: Self::Inertia) -> Vec<f64>;
+}
+
+impl Moments for Planar {
+    const HEADS: &'static [&'static str] = &["centre x [m]", "y [m]", "inertia [kg·m²]"];
+
+    fn moments(inertia: f64) -> Vec<f64> {
+        vec![inertia]
+    }
+}
+
+impl Moments for Spatial {
+    const HEADS: &'static [&'static str] = &[
+        "centre x [m]",
+        "y [m]",
+        "z [m]",
+        "Ixx [kg·m²]",
+        "Iyy",
+        "Izz",
+        "Ixy",
+        "Ixz",
+        "Iyz",
+        "principal moments",
+        "",
+        "",
+    ];
+
+    fn moments(inertia: SymmetricTensor) -> Vec<f64> {
+        let (d, o) = (inertia.diagonal, inertia.off_diagonal);
+        [d.x, d.y, d.z, o.z, o.y, o.x].into_iter().chain(inertia.principal_moments()).collect()
+    }
+}
+
+/// Mass, centre of mass at the start and inertia of every body, in space along the axes of its design frame.
+fn masses<D: Moments>(simulation: &Simulation<D>) -> Vec<String> {
+    let heads = ["body", "kind", "mass [kg]"].iter().chain(D::HEADS);
+    let mut rows = vec![heads.map(|&head| head.to_owned()).collect::<Vec<String>>()];
     for entry in simulation.world().resource::<BodyTable>().entries() {
         let Ok(body) = simulation.body(&entry.name) else { continue };
         let centre = body.position();
@@ -81,21 +126,18 @@ fn masses(simulation: &Simulation<Planar>) -> Vec<String> {
             BodyKind::Kinematic => "kinematic",
             BodyKind::Static => "static",
         };
-        rows.push(vec![
-            entry.name.clone(),
-            kind.to_owned(),
-            of_mass(body.mass()),
-            figure(centre.x),
-            figure(centre.y),
-            of_mass(body.inertia()),
-        ]);
+        let mut row = vec![entry.name.clone(), kind.to_owned(), of_mass(body.mass())];
+        row.extend((0..D::Vector::AXES).map(|axis| figure(centre[axis])));
+        row.extend(D::moments(body.inertia()).into_iter().map(of_mass));
+        rows.push(row);
     }
-    use Column::{Left, Right};
-    table(&[Left, Left, Right, Right, Right, Right], &rows)
+    let columns: Vec<Column> =
+        (0..rows[0].len()).map(|index| if index < 2 { Column::Left } else { Column::Right }).collect();
+    table(&columns, &rows)
 }
 
 /// Friction and restitution of every pair of materials that can meet, each with where it came from; nothing without such pairs.
-fn surfaces(loaded: &Loaded) -> Vec<String> {
+fn surfaces<D: SceneDim>(loaded: &Loaded<D>) -> Vec<String> {
     let heads = ["material", "on", "μ_s [1]", "from", "μ_k [1]", "from", "ε [1]", "from"];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
     for meeting in meetings(&loaded.scene) {

@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use tumble_record::{BodyKind, Completeness, OutputFolder, Recording, Summary};
+use tumble_scene::SceneDim;
 use tumble_scene::expect::{Status, Verdict};
 
 use crate::figure::{Column, counted, figure, rough, table};
 use crate::page::Page;
 
 /// The numbers of a run as aligned lines.
-pub fn numbers(recording: &Recording, summary: &Summary) -> Vec<String> {
+pub fn numbers<D: SceneDim>(recording: &Recording<D>, summary: &Summary) -> Vec<String> {
     let moving = recording.bodies.iter().filter(|body| body.kind != BodyKind::Static).count();
     let peak = recording.audit.iter().map(|row| row.contacts).max().unwrap_or(0);
     let end = recording.audit.last().map_or(0, |row| row.contacts);

@@ -7,6 +7,7 @@ use tumble_record::gltf::to_gltf;
 use tumble_record::{
     Completeness, FileError, OutputFolder, Record, RecordDim, Recording, Summary, write_file, write_run,
 };
+use tumble_scene::{AnyLoaded, Loaded, SceneDim};
 
 use crate::args::RunArguments;
 use crate::failure::{Exit, Failure, stderr_color, tell};
@@ -23,11 +24,22 @@ pub const OUT: &str = "out";
 /// Runs a scene, writes its files and prints what came of it.
 pub fn run(arguments: &RunArguments, page: &mut Page) -> Result<Exit, Failure> {
     let source = arguments.scene.as_deref().map_or_else(Source::default_scene, Source::of)?;
-    let loaded = source.load()?;
+    match source.load()? {
+        AnyLoaded::Planar(loaded) => run_loaded(arguments, &source, loaded, page),
+        AnyLoaded::Spatial(loaded) => run_loaded(arguments, &source, loaded, page),
+    }
+}
+
+fn run_loaded<D: SceneDim>(
+    arguments: &RunArguments,
+    source: &Source,
+    loaded: Loaded<D>,
+    page: &mut Page,
+) -> Result<Exit, Failure> {
     if !arguments.quiet && !loaded.warnings.is_empty() {
         tell(loaded.warnings.render(stderr_color()));
     }
-    let mut prepared = Prepared::new(&source, loaded, &arguments.overrides, arguments.every)?;
+    let mut prepared = Prepared::new(source, loaded, &arguments.overrides, arguments.every)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new(OUT).join(source.stem()));
     let output = Output { folder: OutputFolder::new(folder), arguments };
     interrupt::listen();
@@ -55,7 +67,7 @@ struct Output<'a> {
 
 impl Output<'_> {
     /// Refuses, before a long run, plots that cannot be drawn and a folder that cannot be made.
-    fn check(&self, prepared: &mut Prepared) -> Result<(), Failure> {
+    fn check<D: SceneDim>(&self, prepared: &mut Prepared<D>) -> Result<(), Failure> {
         if let Some(recording) = prepared.simulation.recording() {
             self.arguments.plots.iter().try_for_each(|channel| channel.check(recording))?;
         }
@@ -64,7 +76,7 @@ impl Output<'_> {
     }
 
     /// Writes and tells what came of a run that came to its end.
-    fn complete(&self, prepared: &Prepared, mut run: Run, page: &mut Page) -> Result<Exit, Failure> {
+    fn complete<D: SceneDim>(&self, prepared: &Prepared<D>, mut run: Run<D>, page: &mut Page) -> Result<Exit, Failure> {
         let verdict = prepared.verdict(&run.recording);
         let tally = Tally::of(&verdict);
         thin(&mut run.recording, prepared.every);
@@ -114,7 +126,7 @@ impl Output<'_> {
     }
 
     /// Writes the samples so far of a run that did not come to its end, or whose files cannot be written.
-    fn partial(&self, prepared: &Prepared, mut run: Run, reason: &str) -> Result<Exit, Failure> {
+    fn partial<D: SceneDim>(&self, prepared: &Prepared<D>, mut run: Run<D>, reason: &str) -> Result<Exit, Failure> {
         thin(&mut run.recording, prepared.every);
         let summary = Summary::new(&run.recording, run.wall_time);
         let rescued = write_run(&self.folder, Completeness::Partial, &run.recording, &summary, &self.arguments.plots);

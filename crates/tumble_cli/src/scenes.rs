@@ -10,7 +10,7 @@ use crate::page::Page;
 pub fn scenes(page: &mut Page) -> Result<Exit, Failure> {
     let mut rows = Vec::new();
     for shipped in SHIPPED {
-        rows.push(vec![shipped.name.to_owned(), one_line(&shipped.load()?.scene.about)]);
+        rows.push(vec![shipped.name.to_owned(), one_line(shipped.load_any()?.about())]);
     }
     for line in table(&[Column::Left, Column::Left], &rows) {
         page.line(line);

@@ -4,11 +4,10 @@ use std::ops::RangeInclusive;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use tumble_math::Planar;
 use tumble_record::{Record, Recording, Sampling};
 use tumble_scene::expect::{Verdict, evaluate, watched_steps};
 use tumble_scene::format::Scene;
-use tumble_scene::{FromScene, Loaded};
+use tumble_scene::{FromScene, Loaded, SceneDim};
 use tumble_sim::{BodyTable, Simulation, StepError};
 
 use crate::args::Overrides;
@@ -20,11 +19,11 @@ use crate::source::Source;
 const MOST_STEPS: f64 = 1e8;
 
 /// A scene that was read and built, and is ready to run.
-pub struct Prepared {
+pub struct Prepared<D: SceneDim> {
     /// The scene, as overridden.
-    pub loaded: Loaded,
+    pub loaded: Loaded<D>,
     /// Its simulation, before the first step; it records every `every`-th step, and those that expectations look at.
-    pub simulation: Simulation<Planar>,
+    pub simulation: Simulation<D>,
     /// Its name.
     pub name: String,
     /// Steps between two samples that are kept.
@@ -35,9 +34,9 @@ pub struct Prepared {
 }
 
 /// A run, as far as it got.
-pub struct Run {
+pub struct Run<D: SceneDim> {
     /// What happened.
-    pub recording: Recording,
+    pub recording: Recording<D>,
     /// What a user should know about it.
     pub notices: Vec<String>,
     /// Time on the clock.
@@ -57,19 +56,19 @@ pub enum Ending {
     Failed(StepError),
 }
 
-impl Prepared {
+impl<D: SceneDim> Prepared<D> {
     /// Builds a scene that was read; it samples what its expectations look at, so that `every` changes no verdict.
-    pub fn new(source: &Source, loaded: Loaded, overrides: &Overrides, every: Option<u32>) -> Result<Self, Failure> {
+    pub fn new(source: &Source, loaded: Loaded<D>, overrides: &Overrides, every: Option<u32>) -> Result<Self, Failure> {
         Self::sampled(source, loaded, overrides, every, |scene| watched_steps(scene, scene.contact))
     }
 
     /// Builds a scene that was read; it samples every `every`-th step, and those of the spans.
     pub fn sampled(
         source: &Source,
-        mut loaded: Loaded,
+        mut loaded: Loaded<D>,
         overrides: &Overrides,
         every: Option<u32>,
-        spans: impl FnOnce(&Scene) -> Vec<RangeInclusive<u64>>,
+        spans: impl FnOnce(&Scene<D>) -> Vec<RangeInclusive<u64>>,
     ) -> Result<Self, Failure> {
         let label = source.label();
         let scene = &mut loaded.scene;
@@ -99,12 +98,12 @@ impl Prepared {
     }
 
     /// What is recorded so far.
-    pub fn recording(&mut self) -> Option<&Recording> {
+    pub fn recording(&mut self) -> Option<&Recording<D>> {
         self.simulation.recording()
     }
 
     /// Takes all steps, or as many as possible.
-    pub fn run(&mut self, progress: Progress) -> Run {
+    pub fn run(&mut self, progress: Progress) -> Run<D> {
         let bar = progress.bar(self.steps);
         let start = Instant::now();
         let mut ending = Ending::Complete;
@@ -139,7 +138,7 @@ impl Prepared {
     }
 
     /// What came of the scene's expectations.
-    pub fn verdict(&self, recording: &Recording) -> Verdict {
+    pub fn verdict(&self, recording: &Recording<D>) -> Verdict {
         evaluate(&self.loaded.scene, self.loaded.scene.contact, recording)
     }
 }
@@ -163,7 +162,7 @@ impl Progress {
 }
 
 /// Keeps of a recording every `every`-th step, and the last.
-pub fn thin(recording: &mut Recording, every: u32) {
+pub fn thin<D: SceneDim>(recording: &mut Recording<D>, every: u32) {
     let last = recording.samples.last().map(|sample| sample.step);
     recording.samples.retain(|sample| sample.step.is_multiple_of(u64::from(every)) || Some(sample.step) == last);
 }

@@ -4,9 +4,8 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use tumble_scene::Loaded;
+use tumble_scene::AnyLoaded;
 use tumble_scene::diagnostics::Diagnostics;
-use tumble_scene::format::Scene;
 use tumble_scene::shipped::{DEFAULT_SCENE, SHIPPED, Shipped};
 
 use crate::failure::Failure;
@@ -56,10 +55,10 @@ impl Source {
     }
 
     /// Reads the scene.
-    pub fn load(&self) -> Result<Loaded, Diagnostics> {
+    pub fn load(&self) -> Result<AnyLoaded, Diagnostics> {
         match self {
-            Self::File(path) => Scene::load(path),
-            Self::Shipped(shipped) => shipped.load(),
+            Self::File(path) => AnyLoaded::load(path),
+            Self::Shipped(shipped) => shipped.load_any(),
         }
     }
 

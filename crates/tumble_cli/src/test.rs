@@ -2,6 +2,7 @@
 
 use tumble_scene::diagnostics::Color;
 use tumble_scene::expect::Verdict;
+use tumble_scene::{AnyLoaded, Loaded, SceneDim};
 
 use crate::args::{Overrides, TestArguments};
 use crate::failure::{Exit, Failure, stderr_color, tell};
@@ -32,15 +33,18 @@ enum Tested {
 
 fn try_out(source: &Source, overrides: &Overrides) -> Tested {
     let color: Color = stderr_color();
-    let prepared = source.load().map_err(Failure::from);
-    let prepared = prepared.and_then(|loaded| Prepared::new(source, loaded, overrides, None));
-    match prepared {
-        Ok(mut prepared) => {
-            let run = prepared.run(Progress::Hidden);
-            Tested::Ran { verdict: prepared.verdict(&run.recording), ending: run.ending }
-        }
-        Err(failure) => Tested::Refused { reason: failure.words(color) },
-    }
+    let tested = match source.load() {
+        Ok(AnyLoaded::Planar(loaded)) => try_out_loaded(source, loaded, overrides),
+        Ok(AnyLoaded::Spatial(loaded)) => try_out_loaded(source, loaded, overrides),
+        Err(mistakes) => Err(mistakes.into()),
+    };
+    tested.unwrap_or_else(|failure| Tested::Refused { reason: failure.words(color) })
+}
+
+fn try_out_loaded<D: SceneDim>(source: &Source, loaded: Loaded<D>, overrides: &Overrides) -> Result<Tested, Failure> {
+    let mut prepared = Prepared::new(source, loaded, overrides, None)?;
+    let run = prepared.run(Progress::Hidden);
+    Ok(Tested::Ran { verdict: prepared.verdict(&run.recording), ending: run.ending })
 }
 
 /// What came of all scenes.

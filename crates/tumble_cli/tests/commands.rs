@@ -7,11 +7,15 @@ use support::{BROKEN_PROMISE, Bench, EXPLODING, FALLING};
 #[test]
 fn scenes_lists_every_shipped_scene_with_what_it_shows() {
     let scenes = Bench::new().tumble(["scenes"]).code(0);
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/scenes/planar");
-    let files = std::fs::read_dir(folder).expect("the folder of shipped scenes");
-    let mut names: Vec<String> =
-        files.map(|file| file.expect("a file").path().file_stem().expect("a stem").to_string_lossy().into()).collect();
-    names.sort();
+    let mut names: Vec<String> = Vec::new();
+    for folder in ["planar", "spatial"] {
+        let folder = format!("{}/../../assets/scenes/{folder}", env!("CARGO_MANIFEST_DIR"));
+        let files = std::fs::read_dir(folder).expect("the folder of shipped scenes");
+        let stem = |path: &std::path::Path| path.file_stem().expect("a stem").to_string_lossy().into_owned();
+        let mut of_folder: Vec<String> = files.map(|file| stem(&file.expect("a file").path())).collect();
+        of_folder.sort();
+        names.append(&mut of_folder);
+    }
     let listed: Vec<&str> = scenes.stdout.lines().filter_map(|line| line.split_whitespace().next()).collect();
     assert_eq!(listed, names);
     assert!(scenes.stdout.lines().all(|line| line.split_whitespace().count() > 3), "{}", scenes.stdout);
@@ -150,9 +154,20 @@ fn a_folder_without_scenes_is_told() {
 fn schema_is_json_with_units() {
     let schema = Bench::new().tumble(["schema"]).code(0);
     let schema: serde_json::Value = serde_json::from_str(&schema.stdout).expect("JSON");
-    let dt = &schema["properties"]["dt"];
-    assert!(dt["description"].as_str().expect("a description").contains("[s]"));
-    assert_eq!(dt["default"], 0.01);
+    for dimension in ["PlanarScene", "SpatialScene"] {
+        let dt = &schema["$defs"][dimension]["properties"]["dt"];
+        assert!(dt["description"].as_str().expect("a description").contains("[s]"));
+        assert_eq!(dt["default"], 0.01);
+    }
+    assert_eq!(schema["then"]["$ref"], "#/$defs/SpatialScene");
+    assert_eq!(
+        schema["$defs"]["PlanarScene"]["properties"]["gravity"]["prefixItems"].as_array().map(Vec::len),
+        Some(2)
+    );
+    assert_eq!(
+        schema["$defs"]["SpatialScene"]["properties"]["gravity"]["prefixItems"].as_array().map(Vec::len),
+        Some(3)
+    );
 }
 
 #[test]

@@ -4,31 +4,28 @@ use std::collections::BTreeMap;
 
 use bevy_ecs::name::Name;
 use bevy_ecs::prelude::Entity;
-use glam::DVec2;
 use thiserror::Error;
-use tumble_math::{Planar, PlanarRotation};
-use tumble_shape::ShapeError;
+use tumble_math::{Linear, Planar, Rotation, Vector};
 use tumble_sim::{
-    Amount, Anchor, AppliedForce, BodyId, CentreOverride, Course, GravityScale, IgnoredPairs, ImpulseSettings,
-    InertiaOverride, Joint, Keyframe, Keyframes, LinearDrag, LinearVelocity, Lock, LockedAxes, MassOverride,
-    MaterialId, Orientation, Part, PenaltySettings, Pinned, Position, QuadraticDrag, Response, Settings, Simulation,
-    Spring, SpringDamperSettings, StepError, VelocityLcpSettings,
+    Anchor, AppliedForce, BodyId, CentreOverride, Course, GravityScale, IgnoredPairs, ImpulseSettings, InertiaOverride,
+    Joint, LinearDrag, LinearVelocity, Lock, LockedAxes, MassOverride, MaterialId, Orientation, Part, PenaltySettings,
+    Pinned, Position, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings, StepError,
+    VelocityLcpSettings,
 };
 use tumble_solver::{Surface, velocity_lcp};
 
 use crate::check::remember;
 use crate::diagnostics::Diagnostics;
+use crate::dim::{PartError, SceneDim};
 use crate::expand::ExpandedBody;
 use crate::format::{
-    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Groups, JointEntry, JointKind, Scene, SpringEntry,
-};
-use crate::format::{
-    ImpulseEntry, Integrator, PenaltyEntry, PenaltyLaw, RestitutionLaw, VelocityLcpEntry, VelocitySolver,
+    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Groups, ImpulseEntry, Integrator, JointEntry, PartEntry,
+    PenaltyEntry, PenaltyLaw, RestitutionLaw, Scene, SpringEntry, VelocityLcpEntry, VelocitySolver,
 };
 use crate::load::Loaded;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
 use crate::overlap::initial_overlaps;
-use crate::shapes::planar_shape;
+use crate::shapes::amount;
 
 /// Why a scene cannot become a simulation.
 #[derive(Debug, Error)]
@@ -42,7 +39,7 @@ pub enum BuildError {
         /// The body.
         body: String,
         /// What is wrong.
-        source: ShapeError,
+        source: PartError,
     },
     /// A spring, a joint or a force is about a body that is not there.
     #[error("no body is named \"{0}\"")]
@@ -53,13 +50,13 @@ pub enum BuildError {
 }
 
 /// A simulation out of a scene.
-pub trait FromScene: Sized {
+pub trait FromScene<D: SceneDim = Planar>: Sized {
     /// Builds a scene that was loaded, with its material tables.
     ///
     /// # Errors
     ///
     /// When bodies [overlap](initial_overlaps) at the start, or one cannot be simulated; loading has found everything else before.
-    fn from_loaded(loaded: &Loaded) -> Result<Self, BuildError> {
+    fn from_loaded(loaded: &Loaded<D>) -> Result<Self, BuildError> {
         let overlaps = initial_overlaps(&loaded.scene, &loaded.materials)?;
         if !overlaps.is_empty() {
             return Err(BuildError::Scene(loaded.diagnose(overlaps)));
@@ -72,7 +69,7 @@ pub trait FromScene: Sized {
     /// # Errors
     ///
     /// When the scene has mistakes.
-    fn from_scene(scene: &Scene) -> Result<Self, BuildError> {
+    fn from_scene(scene: &Scene<D>) -> Result<Self, BuildError> {
         let materials = MaterialLibrary::of_scene(scene);
         scene.check(&materials).map_err(BuildError::Scene)?;
         let overlaps = initial_overlaps(scene, &materials)?;
@@ -89,35 +86,42 @@ pub trait FromScene: Sized {
     /// # Errors
     ///
     /// When a body cannot be simulated.
-    fn with_materials(scene: &Scene, materials: &MaterialLibrary) -> Result<Self, BuildError>;
+    fn with_materials(scene: &Scene<D>, materials: &MaterialLibrary) -> Result<Self, BuildError>;
 }
 
-impl FromScene for Simulation<Planar> {
-    fn with_materials(scene: &Scene, materials: &MaterialLibrary) -> Result<Self, BuildError> {
-        let bodies = scene.expand();
-        let mut simulation = Self::new(settings(scene));
-        let ids = add_materials(&mut simulation, &bodies, materials);
-        let groups = GroupBits::of(&bodies);
-        for (id, body) in bodies.iter().enumerate() {
-            add_body(&mut simulation, BodyId(id as u64), &body.body, &ids, &groups)?;
-        }
-        ignore_pairs(&mut simulation, &bodies);
-        // Springs, joints and forces hold on to centres of mass, which exist once the bodies are prepared.
-        simulation.prepare()?;
-        for spring in &scene.springs {
-            add_spring(&mut simulation, spring)?;
-        }
-        for force in &scene.forces {
-            add_force(&mut simulation, force)?;
-        }
-        add_joints(&mut simulation, &scene.joints)?;
-        simulation.prepare()?;
-        remember(&mut simulation, scene);
-        Ok(simulation)
+impl<D: SceneDim> FromScene<D> for Simulation<D> {
+    fn with_materials(scene: &Scene<D>, materials: &MaterialLibrary) -> Result<Self, BuildError> {
+        (D::scene_engine().build)(scene, materials)
     }
 }
 
-fn settings(scene: &Scene) -> Settings {
+pub(crate) fn simulation<D: SceneDim>(
+    scene: &Scene<D>,
+    materials: &MaterialLibrary,
+) -> Result<Simulation<D>, BuildError> {
+    let bodies = scene.expand();
+    let mut simulation = Simulation::with_settings(settings(scene));
+    let ids = add_materials(&mut simulation, &bodies, materials);
+    let groups = GroupBits::of(&bodies);
+    for (id, body) in bodies.iter().enumerate() {
+        add_body(&mut simulation, BodyId(id as u64), &body.body, &ids, &groups)?;
+    }
+    ignore_pairs(&mut simulation, &bodies);
+    // Springs, joints and forces hold on to centres of mass, which exist once the bodies are prepared.
+    simulation.prepare()?;
+    for spring in &scene.springs {
+        add_spring(&mut simulation, spring)?;
+    }
+    for force in &scene.forces {
+        add_force(&mut simulation, force)?;
+    }
+    add_joints(&mut simulation, &scene.joints)?;
+    simulation.prepare()?;
+    remember(&mut simulation, scene);
+    Ok(simulation)
+}
+
+fn settings<D: SceneDim>(scene: &Scene<D>) -> Settings<D> {
     Settings {
         dt: scene.dt,
         gravity: scene.gravity,
@@ -132,7 +136,7 @@ fn settings(scene: &Scene) -> Settings {
         penalty: penalty_settings(&scene.models.penalty, scene.length_scale),
         impulse: impulse_settings(&scene.models.impulse),
         velocity_lcp: velocity_settings(&scene.models.velocity_lcp),
-        ..Settings::default()
+        ..Settings::weightless()
     }
 }
 
@@ -177,14 +181,14 @@ fn impulse_settings(entry: &ImpulseEntry) -> ImpulseSettings {
 }
 
 /// Enters the surfaces of all pairs of materials that occur; returns the id of each name.
-fn add_materials(
-    simulation: &mut Simulation,
-    bodies: &[ExpandedBody],
+fn add_materials<D: SceneDim>(
+    simulation: &mut Simulation<D>,
+    bodies: &[ExpandedBody<D>],
     library: &MaterialLibrary,
 ) -> BTreeMap<String, MaterialId> {
     let mut used = BTreeMap::from([(DEFAULT_MATERIAL.to_owned(), MaterialId::default())]);
     for part in bodies.iter().flat_map(|body| body.body.parts.iter().map(move |part| (part, &body.body))) {
-        used.entry(material_of(part.0, part.1).to_owned()).or_default();
+        used.entry(material_of::<D>(part.0, part.1).to_owned()).or_default();
     }
     let surface = |a: &str, b: &str| {
         let properties = library.pair(a, b).properties;
@@ -206,7 +210,7 @@ fn add_materials(
     used
 }
 
-fn material_of<'a>(part: &'a crate::format::Part, body: &'a BodyEntry) -> &'a str {
+fn material_of<'a, D: SceneDim>(part: &'a D::Part, body: &'a BodyEntry<D>) -> &'a str {
     part.material().or(body.material.as_deref()).unwrap_or(DEFAULT_MATERIAL)
 }
 
@@ -214,7 +218,7 @@ fn material_of<'a>(part: &'a crate::format::Part, body: &'a BodyEntry) -> &'a st
 struct GroupBits<'a>(Vec<&'a str>);
 
 impl<'a> GroupBits<'a> {
-    fn of(bodies: &'a [ExpandedBody]) -> Self {
+    fn of<D: SceneDim>(bodies: &'a [ExpandedBody<D>]) -> Self {
         let mut names = Vec::new();
         let mut add = |groups: Option<&'a Groups>| {
             if let Some(Groups::Names(list)) = groups {
@@ -246,10 +250,10 @@ impl<'a> GroupBits<'a> {
     }
 }
 
-fn add_body(
-    simulation: &mut Simulation,
+fn add_body<D: SceneDim>(
+    simulation: &mut Simulation<D>,
     id: BodyId,
-    body: &BodyEntry,
+    body: &BodyEntry<D>,
     materials: &BTreeMap<String, MaterialId>,
     groups: &GroupBits,
 ) -> Result<(), BuildError> {
@@ -262,32 +266,30 @@ fn add_body(
             BodyKind::Static => tumble_sim::BodyKind::Static,
         },
         Position(body.at),
-        Orientation(PlanarRotation::from_degrees(body.angle_degrees)),
+        Orientation(D::design_rotation(body)),
         LinearVelocity(body.velocity),
         tumble_sim::AngularVelocity(body.angular_velocity),
     ));
     add_options(simulation, entity, body);
     for part in &body.parts {
-        let shape = planar_shape(part).map_err(|source| BuildError::Shape { body: body.name.clone(), source })?;
-        let Some(shape) = shape else { continue };
-        let amount = match part.density_and_mass() {
-            (_, Some(mass)) => Amount::Mass(mass),
-            (density, None) => Amount::Density(density.unwrap_or(1.0)),
-        };
+        let shapes = D::shapes(part).map_err(|source| BuildError::Shape { body: body.name.clone(), source })?;
+        let amount = amount(part);
         let (member_of, accepts) = part.groups();
         let groups = tumble_sim::Groups {
             member_of: groups.bits(member_of.unwrap_or(&body.groups)),
             accepts: groups.bits(accepts.unwrap_or(&body.collides_with)),
         };
         let response = if part.is_sensor() { Response::Sensor } else { Response::Solid };
-        let material = materials.get(material_of(part, body)).copied().unwrap_or_default();
-        simulation.attach(entity, Part::new(shape, amount).material(material).groups(groups).response(response));
+        let material = materials.get(material_of::<D>(part, body)).copied().unwrap_or_default();
+        for shape in shapes {
+            simulation.attach(entity, Part::new(shape, amount).material(material).groups(groups).response(response));
+        }
     }
     Ok(())
 }
 
 /// Adds the components that only some bodies have.
-fn add_options(simulation: &mut Simulation, entity: Entity, body: &BodyEntry) {
+fn add_options<D: SceneDim>(simulation: &mut Simulation<D>, entity: Entity, body: &BodyEntry<D>) {
     let mut entity = simulation.world_mut().entity_mut(entity);
     if let Some(mass) = body.mass {
         entity.insert(MassOverride(mass));
@@ -295,8 +297,8 @@ fn add_options(simulation: &mut Simulation, entity: Entity, body: &BodyEntry) {
     if let Some(centre) = body.centre {
         entity.insert(CentreOverride(centre));
     }
-    if let Some(inertia) = body.inertia {
-        entity.insert(InertiaOverride(inertia));
+    if let Some(inertia) = &body.inertia {
+        entity.insert(InertiaOverride(D::inertia(inertia)));
     }
     if body.gravity_scale != 1.0 {
         entity.insert(GravityScale(body.gravity_scale));
@@ -312,22 +314,17 @@ fn add_options(simulation: &mut Simulation, entity: Entity, body: &BodyEntry) {
     }
     if !body.locked.is_empty() {
         let locked = |axis: Axis| body.locked.contains(&axis);
-        let along = |axis: Axis| if locked(axis) { 1.0 } else { 0.0 };
+        let mut translation = D::Vector::ZERO;
+        for (number, axis) in Axis::ALONG.into_iter().enumerate().take(D::Vector::AXES) {
+            translation[number] = if locked(axis) { 1.0 } else { 0.0 };
+        }
         let rotation = if locked(Axis::Angle) { Lock::Locked } else { Lock::Free };
-        entity.insert(LockedAxes { translation: DVec2::new(along(Axis::X), along(Axis::Y)), rotation });
+        entity.insert(LockedAxes { translation, rotation });
     }
-    if !body.keyframes.is_empty() {
-        let centre = body.centre.unwrap_or(DVec2::ZERO);
-        let frames = body.keyframes.iter().map(|frame| {
-            let rotation = PlanarRotation::from_degrees(frame.angle_degrees);
-            let position = frame.at + tumble_math::Rotation::rotate(&rotation, centre);
-            Keyframe { time: frame.time, position, angle: rotation.angle() }
-        });
-        entity.insert(Keyframes(frames.collect()));
-    }
+    D::insert_keyframes(body, &mut entity);
 }
 
-fn ignore_pairs(simulation: &mut Simulation, bodies: &[ExpandedBody]) {
+fn ignore_pairs<D: SceneDim>(simulation: &mut Simulation<D>, bodies: &[ExpandedBody<D>]) {
     let id = |name: &str| bodies.binary_search_by(|body| body.body.name.as_str().cmp(name)).ok();
     let pairs = bodies.iter().enumerate().flat_map(|(one, body)| {
         body.body.ignores.iter().filter_map(move |name| Some((BodyId(one as u64), BodyId(id(name)? as u64))))
@@ -339,7 +336,7 @@ fn ignore_pairs(simulation: &mut Simulation, bodies: &[ExpandedBody]) {
     }
 }
 
-fn add_spring(simulation: &mut Simulation, entry: &SpringEntry) -> Result<(), BuildError> {
+fn add_spring<D: SceneDim>(simulation: &mut Simulation<D>, entry: &SpringEntry<D>) -> Result<(), BuildError> {
     let (a, from) = anchor(simulation, &entry.from)?;
     let (b, to) = anchor(simulation, &entry.to)?;
     simulation.spawn(Spring {
@@ -347,12 +344,12 @@ fn add_spring(simulation: &mut Simulation, entry: &SpringEntry) -> Result<(), Bu
         b,
         stiffness: entry.stiffness,
         damping: entry.damping,
-        rest_length: entry.rest_length.unwrap_or_else(|| from.distance(to)),
+        rest_length: entry.rest_length.unwrap_or_else(|| (from - to).length()),
     });
     Ok(())
 }
 
-fn add_joints(simulation: &mut Simulation, entries: &[JointEntry]) -> Result<(), BuildError> {
+fn add_joints<D: SceneDim>(simulation: &mut Simulation<D>, entries: &[JointEntry<D>]) -> Result<(), BuildError> {
     // All anchors before the first joint: a joint may have the name of a body.
     let joints: Result<Vec<_>, BuildError> = entries.iter().map(|entry| joint(simulation, entry)).collect();
     for (joint, entry) in joints?.into_iter().zip(entries) {
@@ -361,37 +358,32 @@ fn add_joints(simulation: &mut Simulation, entries: &[JointEntry]) -> Result<(),
     Ok(())
 }
 
-fn joint(simulation: &Simulation, entry: &JointEntry) -> Result<Joint<DVec2>, BuildError> {
+fn joint<D: SceneDim>(simulation: &Simulation<D>, entry: &JointEntry<D>) -> Result<Joint<D::Vector>, BuildError> {
     let (a, at_a) = anchor(simulation, &entry.a)?;
     let (b, at_b) = anchor(simulation, &entry.b)?;
-    let kind = match entry.kind {
-        JointKind::Revolute => tumble_sim::JointKind::Revolute,
-        JointKind::Distance { length } => {
-            tumble_sim::JointKind::Distance { length: length.unwrap_or_else(|| at_a.distance(at_b)) }
-        }
-        JointKind::Fixed => tumble_sim::JointKind::Fixed,
-        JointKind::Prismatic { axis } => tumble_sim::JointKind::Prismatic { axis },
-    };
-    Ok(Joint { a, b, kind })
+    Ok(Joint { a, b, kind: D::joint(&entry.kind, [at_a, at_b]) })
 }
 
 /// The anchor, and where it is at the start in world axes [m].
-fn anchor(simulation: &Simulation, entry: &AnchorEntry) -> Result<(Anchor<DVec2>, DVec2), BuildError> {
+fn anchor<D: SceneDim>(
+    simulation: &Simulation<D>,
+    entry: &AnchorEntry<D>,
+) -> Result<(Anchor<D::Vector>, D::Vector), BuildError> {
     match entry {
         AnchorEntry::World { point } => Ok((Anchor::World(*point), *point)),
         AnchorEntry::Body { name, point } => {
             let body = simulation.body(name).map_err(|unknown| BuildError::UnknownBody(unknown.0))?;
-            let point = point.map_or(DVec2::ZERO, |point| body.from_part_frame(point));
-            Ok((Anchor::Body(body.entity(), point), body.point(point)))
+            let point = point.map_or(D::Vector::ZERO, |point| body.from_part_frame(point));
+            Ok((Anchor::Body(body.entity(), point), body.position() + body.rotation().rotate(point)))
         }
     }
 }
 
-fn add_force(simulation: &mut Simulation, entry: &ForceEntry) -> Result<(), BuildError> {
+fn add_force<D: SceneDim>(simulation: &mut Simulation<D>, entry: &ForceEntry<D>) -> Result<(), BuildError> {
     let body = simulation.body(&entry.on).map_err(|unknown| BuildError::UnknownBody(unknown.0))?;
-    let force = AppliedForce::<Planar> {
+    let force = AppliedForce::<D> {
         body: body.entity(),
-        point: entry.point.map_or(DVec2::ZERO, |point| body.from_part_frame(point)),
+        point: entry.point.map_or(D::Vector::ZERO, |point| body.from_part_frame(point)),
         force: entry.force,
         torque: entry.torque,
         axes: match entry.axes {

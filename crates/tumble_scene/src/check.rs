@@ -24,14 +24,15 @@ use tumble_math::Planar;
 use tumble_record::{Record, Recording};
 use tumble_sim::{BodyTable, GravityScale, Simulation, StepError};
 
+use crate::dim::SceneDim;
 use crate::expand::copies;
 use crate::expect::{NotMeasured, Status, Verdict, evaluate};
 use crate::format::{BodyEntry, ContactModel, Expectation, Scene};
 
 /// A simulation that is held to what was promised of it.
-pub trait Check {
+pub trait Check<D: SceneDim = Planar> {
     /// The scene it was built from; `None` for one built in code.
-    fn scene(&self) -> Option<&Scene>;
+    fn scene(&self) -> Option<&Scene<D>>;
 
     /// Runs to the end of the scene's duration, recording as often as the scene says unless a recording is under way.
     ///
@@ -41,7 +42,7 @@ pub trait Check {
     fn run_scene(&mut self) -> Result<(), RunError>;
 
     /// Adds an expectation to those of the scene, or makes the first one of a simulation built in code.
-    fn expect(&mut self, expectation: Expectation);
+    fn expect(&mut self, expectation: Expectation<D>);
 
     /// Compares the recording with every expectation.
     ///
@@ -63,22 +64,28 @@ pub enum RunError {
 }
 
 /// What was promised of a simulation.
-#[derive(Resource, Clone, Debug, Default)]
-pub(crate) struct Promises {
+#[derive(Resource, Clone, Debug)]
+pub(crate) struct Promises<D: SceneDim> {
     /// The scene it was built from.
-    pub scene: Option<Scene>,
+    pub scene: Option<Scene<D>>,
     /// Expectations that were added in code.
-    pub added: Vec<Expectation>,
+    pub added: Vec<Expectation<D>>,
+}
+
+impl<D: SceneDim> Default for Promises<D> {
+    fn default() -> Self {
+        Self { scene: None, added: Vec::new() }
+    }
 }
 
 /// Lets a simulation remember its scene.
-pub(crate) fn remember(simulation: &mut Simulation<Planar>, scene: &Scene) {
+pub(crate) fn remember<D: SceneDim>(simulation: &mut Simulation<D>, scene: &Scene<D>) {
     simulation.world_mut().insert_resource(Promises { scene: Some(scene.clone()), added: Vec::new() });
 }
 
-impl Check for Simulation<Planar> {
-    fn scene(&self) -> Option<&Scene> {
-        self.world().get_resource::<Promises>()?.scene.as_ref()
+impl<D: SceneDim> Check<D> for Simulation<D> {
+    fn scene(&self) -> Option<&Scene<D>> {
+        self.world().get_resource::<Promises<D>>()?.scene.as_ref()
     }
 
     fn run_scene(&mut self) -> Result<(), RunError> {
@@ -91,8 +98,8 @@ impl Check for Simulation<Planar> {
         Ok(())
     }
 
-    fn expect(&mut self, expectation: Expectation) {
-        self.world_mut().get_resource_or_init::<Promises>().added.push(expectation);
+    fn expect(&mut self, expectation: Expectation<D>) {
+        self.world_mut().get_resource_or_init::<Promises<D>>().added.push(expectation);
     }
 
     fn check(&mut self) -> Verdict {
@@ -112,10 +119,10 @@ impl Check for Simulation<Planar> {
 }
 
 /// The scene with all expectations, and with an entry for each body that was added in code.
-fn promised(simulation: &Simulation<Planar>) -> Scene {
-    let Promises { scene, added } = simulation.world().get_resource::<Promises>().cloned().unwrap_or_default();
+fn promised<D: SceneDim>(simulation: &Simulation<D>) -> Scene<D> {
+    let Promises { scene, added } = simulation.world().get_resource::<Promises<D>>().cloned().unwrap_or_default();
     let settings = simulation.settings();
-    let in_code = || Scene { gravity: settings.gravity, duration: simulation.time(), ..Scene::default() };
+    let in_code = || Scene { gravity: settings.gravity, duration: simulation.time(), ..Scene::empty() };
     let mut scene = scene.unwrap_or_else(in_code);
     scene.expect.extend(added);
     let known: BTreeSet<String> = scene.bodies.iter().flat_map(copies).map(|copy| copy.name).collect();

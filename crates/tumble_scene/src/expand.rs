@@ -2,48 +2,43 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use tumble_math::{Linear, Planar, Vector};
 use xxhash_rust::xxh3::xxh3_64;
 
-use crate::format::{BodyEntry, Jitter, Part, Repeat, Scene};
-use glam::{DVec2, dvec2};
+use crate::dim::SceneDim;
+use crate::format::{AsCounts, BodyEntry, Dialect, Jitter, PartEntry, Repeat, Scene};
 
 /// Bodies that a scene may expand to.
 pub const MOST_BODIES: u64 = 1_000_000;
 
 /// One body of the flat list.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ExpandedBody {
+pub struct ExpandedBody<D: SceneDim = Planar> {
     /// Its index in the scene's list of bodies, for messages.
     pub entry: usize,
     /// The body without `repeat` and without part lists; `ignores` names single bodies.
-    pub body: BodyEntry,
+    pub body: BodyEntry<D>,
 }
 
-impl Scene {
+impl<D: SceneDim> Scene<D> {
     /// All bodies, sorted by name, so that the index of a body is its id.
     ///
     /// Lists that do not exist contribute no parts; validation has refused such scenes.
-    pub fn expand(&self) -> Vec<ExpandedBody> {
-        let mut expanded: Vec<ExpandedBody> = Vec::new();
+    pub fn expand(&self) -> Vec<ExpandedBody<D>> {
+        let mut expanded: Vec<ExpandedBody<D>> = Vec::new();
         for (index, entry) in self.bodies.iter().enumerate() {
             let ignores: Vec<String> = entry.ignores.iter().flat_map(|name| self.names_meant_by(name)).collect();
             let parts = self.flat_parts(entry);
             for copy in copies(entry) {
                 let (moved, turned_degrees) = jitter(self.seed, &copy.name, copy.jitter);
-                let offset = copy.offset + moved;
                 let mut body = BodyEntry {
                     name: copy.name,
-                    at: entry.at + offset,
-                    angle_degrees: entry.angle_degrees + turned_degrees,
                     parts: parts.clone(),
                     ignores: ignores.clone(),
                     repeat: None,
                     ..entry.clone()
                 };
-                for keyframe in &mut body.keyframes {
-                    keyframe.at += offset;
-                    keyframe.angle_degrees += turned_degrees;
-                }
+                D::displace(&mut body, copy.offset + moved, turned_degrees);
                 expanded.push(ExpandedBody { entry: index, body });
             }
         }
@@ -60,49 +55,51 @@ impl Scene {
     }
 
     /// The parts of a body with those of the lists it names.
-    pub fn flat_parts(&self, entry: &BodyEntry) -> Vec<Part> {
+    pub fn flat_parts(&self, entry: &BodyEntry<D>) -> Vec<D::Part> {
         self.parts_of(entry).cloned().collect()
     }
 
     /// The parts of a body with those of the lists it names, where they stand in the scene.
-    pub(crate) fn parts_of<'s>(&'s self, entry: &'s BodyEntry) -> impl Iterator<Item = &'s Part> {
-        entry.parts.iter().flat_map(|part| match part {
-            Part::List(name) => self.part_lists.get(name).map_or(&[][..], Vec::as_slice),
-            part => std::slice::from_ref(part),
+    pub(crate) fn parts_of<'s>(&'s self, entry: &'s BodyEntry<D>) -> impl Iterator<Item = &'s D::Part> {
+        entry.parts.iter().flat_map(|part| match part.list() {
+            Some(name) => self.part_lists.get(name).map_or(&[][..], Vec::as_slice),
+            None => std::slice::from_ref(part),
         })
     }
 }
 
 /// A copy of a repeated body, before jitter.
-pub(crate) struct Copy {
+pub(crate) struct Copy<D: Dialect> {
     pub name: String,
-    pub offset: DVec2,
-    pub jitter: Jitter,
+    pub offset: D::Vector,
+    pub jitter: Jitter<D>,
 }
 
 /// Number of bodies an entry stands for.
-pub(crate) fn count(entry: &BodyEntry) -> u64 {
+pub(crate) fn count<D: Dialect>(entry: &BodyEntry<D>) -> u64 {
     match &entry.repeat {
         None => 1,
-        Some(Repeat::Grid(grid)) => u64::from(grid.count.0) * u64::from(grid.count.1),
+        Some(Repeat::Grid(grid)) => grid.count.counts().into_iter().map(u64::from).fold(1, u64::saturating_mul),
         Some(Repeat::Line(line)) => u64::from(line.count),
     }
 }
 
 /// All copies of an entry, or the body itself.
-pub(crate) fn copies(entry: &BodyEntry) -> Box<dyn Iterator<Item = Copy> + '_> {
+pub(crate) fn copies<D: Dialect>(entry: &BodyEntry<D>) -> Box<dyn Iterator<Item = Copy<D>> + '_> {
     let name = &entry.name;
     match &entry.repeat {
-        None => Box::new(std::iter::once(Copy { name: name.clone(), offset: DVec2::ZERO, jitter: Jitter::default() })),
-        Some(Repeat::Grid(grid)) => {
-            let (columns, rows) = grid.count;
-            let cells = (0..columns).flat_map(move |column| (0..rows).map(move |row| (column, row)));
-            Box::new(cells.map(move |(column, row)| Copy {
-                name: format!("{name}-{column}-{row}"),
-                offset: grid.spacing * dvec2(f64::from(column), f64::from(row)),
-                jitter: grid.jitter,
-            }))
+        None => {
+            Box::new(std::iter::once(Copy { name: name.clone(), offset: D::Vector::ZERO, jitter: Jitter::default() }))
         }
+        Some(Repeat::Grid(grid)) => Box::new(cells(grid.count.counts()).map(move |cell| {
+            let mut steps = D::Vector::ZERO;
+            let mut name = name.clone();
+            for (axis, number) in cell.into_iter().enumerate() {
+                steps[axis] = f64::from(number);
+                name += &format!("-{number}");
+            }
+            Copy { name, offset: grid.spacing.scale_by(steps), jitter: grid.jitter }
+        })),
         Some(Repeat::Line(line)) => Box::new((0..line.count).map(move |index| Copy {
             name: format!("{name}-{index}"),
             offset: line.spacing * f64::from(index),
@@ -111,13 +108,35 @@ pub(crate) fn copies(entry: &BodyEntry) -> Box<dyn Iterator<Item = Copy> + '_> {
     }
 }
 
+/// Every cell of a grid with so many cells along each axis, the last axis first.
+fn cells(counts: Vec<u32>) -> impl Iterator<Item = Vec<u32>> {
+    let total: u64 = counts.iter().copied().map(u64::from).product();
+    (0..total).map(move |index| {
+        let mut rest = index;
+        let mut cell: Vec<u32> = counts
+            .iter()
+            .rev()
+            .map(|&count| {
+                let number = rest % u64::from(count);
+                rest /= u64::from(count);
+                number as u32
+            })
+            .collect();
+        cell.reverse();
+        cell
+    })
+}
+
 /// Displacement [m] and turn [degrees] of a copy. Each name has a random stream of its own, so neither the order of the file nor the number of
 /// copies changes where a copy stands.
-fn jitter(seed: u64, name: &str, jitter: Jitter) -> (DVec2, f64) {
+fn jitter<D: SceneDim>(seed: u64, name: &str, jitter: Jitter<D>) -> (D::Vector, D::Angular) {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(xxh3_64(name.as_bytes()));
-    let (x, y, angle) = (symmetric(&mut random), symmetric(&mut random), symmetric(&mut random));
-    (jitter.at * dvec2(x, y), jitter.angle_degrees * angle)
+    let mut shares = D::Vector::ZERO;
+    for axis in 0..D::Vector::AXES {
+        shares[axis] = symmetric(&mut random);
+    }
+    (jitter.at.scale_by(shares), D::random_turn(jitter.angle_degrees, || symmetric(&mut random)))
 }
 
 /// A number from −1 to 1, a multiple of 2⁻⁵².
@@ -128,8 +147,10 @@ fn symmetric(random: &mut ChaCha8Rng) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use glam::{DVec2, dvec2};
+
     use super::*;
-    use crate::format::{RepeatGrid, RepeatLine, RodPart};
+    use crate::format::{Part, RepeatGrid, RepeatLine, RodPart};
 
     fn grid(count: (u32, u32), jitter: Jitter) -> BodyEntry {
         let repeat = Some(Repeat::Grid(RepeatGrid { count, spacing: dvec2(2.0, 3.0), jitter }));
@@ -179,7 +200,7 @@ mod tests {
     #[test]
     fn the_draws_never_change() {
         // Golden figures: another generator or another order of draws would move every jittered scene.
-        let (moved, turned) = jitter(0, "crate-0-0", Jitter { at: DVec2::ONE, angle_degrees: 1.0 });
+        let (moved, turned) = jitter::<Planar>(0, "crate-0-0", Jitter { at: DVec2::ONE, angle_degrees: 1.0 });
         assert_eq!((moved.x, moved.y, turned), (0.7053920516291847, -0.5138157193870596, 0.8397653889198375));
     }
 

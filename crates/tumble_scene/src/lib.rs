@@ -21,6 +21,9 @@
 mod build;
 mod check;
 pub mod diagnostics;
+pub mod dim;
+mod engine;
+mod exact;
 pub mod expand;
 pub mod expect;
 pub mod format;
@@ -40,7 +43,9 @@ mod write;
 
 pub use build::{BuildError, FromScene};
 pub use check::{Check, RunError};
-pub use load::{Loaded, load_table};
+pub use dim::{PartError, SceneDim};
+pub use engine::SceneEngine;
+pub use load::{AnyLoaded, Loaded, load_table};
 pub use meetings::{Meeting, meetings};
 pub use overlap::initial_overlaps;
 pub use path::ScenePath;

@@ -7,24 +7,26 @@ use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
+use tumble_math::{Planar, Spatial};
 
-use crate::diagnostics::{Diagnostic, Diagnostics, Position};
-use crate::format::{MaterialTable, Scene};
+use crate::diagnostics::{Diagnostic, Diagnostics, Position, nearest};
+use crate::dim::SceneDim;
+use crate::format::{Dialect, MaterialTable, Scene};
 use crate::materials::MaterialLibrary;
 use crate::path::ScenePath;
 use crate::salvage::Salvage;
-use crate::text::{self, Grammar, Node};
+use crate::text::{self, Grammar, Kind, Node};
 use crate::validate::{check_table, validate};
-use crate::write::SCENE;
+use crate::write::grammar;
 
 /// Bytes that a scene file may have.
 const LARGEST_FILE: u64 = 64 << 20;
 
 /// A scene that was read and found free of mistakes.
 #[derive(Clone, Debug)]
-pub struct Loaded {
+pub struct Loaded<D: SceneDim = Planar> {
     /// The scene.
-    pub scene: Scene,
+    pub scene: Scene<D>,
     /// Materials of all tables that the scene uses.
     pub materials: MaterialLibrary,
     /// What may not mean what it says.
@@ -33,64 +35,84 @@ pub struct Loaded {
     root: Node,
 }
 
-impl Loaded {
+impl<D: SceneDim> Loaded<D> {
     /// Puts findings of a later check (such as bodies that overlap at the start) beside the text they are about.
     pub fn diagnose(&self, findings: impl IntoIterator<Item = Diagnostic>) -> Diagnostics {
         let mut diagnostics = Diagnostics::new(self.warnings.origin(), self.text.as_str());
         diagnostics.extend(findings.into_iter().map(|finding| finding.located(|path| self.root.locate(path))));
         diagnostics
     }
-}
 
-impl Scene {
-    /// Reads a scene from a text. `origin` names the text in messages; paths inside the scene are relative to its folder.
-    pub fn parse(text: &str, origin: impl AsRef<Path>) -> Result<Loaded, Diagnostics> {
-        let origin = origin.as_ref();
-        // A byte order mark is no part of the text.
-        let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
-        let folder = origin.parent().unwrap_or(Path::new(""));
-        let (scene, root, mut diagnostics) = match read_checked::<Self>(text, &SCENE, origin) {
-            Ok(read) => read,
-            Err(refusal) => {
-                let Refusal { root, mut mistakes } = *refusal;
-                if let Some(root) = root {
-                    mistakes.extend(further_mistakes(text, &root, &mistakes, folder));
-                }
-                return Err(mistakes);
-            }
-        };
-        let mut tables = Vec::new();
-        for (index, file) in scene.materials_from.iter().enumerate() {
-            match load_table(&folder.join(file)) {
-                Ok(table) => tables.push(table),
-                Err(mistakes) => {
-                    let path = ScenePath::root().field("materials_from").index(index);
-                    let diagnostic = Diagnostic::error(format!("the material table \"{file}\" cannot be used"))
-                        .about(path)
-                        .labelled("named here");
-                    diagnostics.push(diagnostic.located(|path| root.locate(path)));
-                    diagnostics.append_file(mistakes);
-                }
-            }
-        }
-        let materials = MaterialLibrary::with_tables(&scene, &tables);
-        // Without all tables every material could be unknown, so only what is certain is told.
-        let are_tables_read = !diagnostics.has_errors();
-        let findings =
-            validate(&scene, &materials).into_iter().filter(|finding| are_tables_read || !finding.needs_all_names);
-        diagnostics.extend(findings.map(|finding| finding.located(|path| root.locate(path))));
-        if diagnostics.has_errors() {
-            return Err(diagnostics);
-        }
-        Ok(Loaded { scene, materials, warnings: diagnostics, text: text.to_owned(), root })
+    /// Reads a scene of this dimension from a text. `origin` names the text in messages; paths inside the scene are relative to its folder.
+    pub fn parse(text: &str, origin: impl AsRef<Path>) -> Result<Self, Diagnostics> {
+        (D::scene_engine().read)(text, origin.as_ref())
     }
 
-    /// Reads a scene from a file.
-    pub fn load(path: impl AsRef<Path>) -> Result<Loaded, Diagnostics> {
+    /// Reads a scene of this dimension from a file.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
         let path = path.as_ref();
         Self::parse(&read_file(path)?, path)
     }
+}
 
+pub(crate) fn read_scene<D: SceneDim>(text: &str, origin: &Path) -> Result<Loaded<D>, Diagnostics> {
+    // A byte order mark is no part of the text.
+    let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
+    if let Some(mistake) = other_dimension::<D>(text) {
+        let mut mistakes = Diagnostics::new(origin.display().to_string(), text);
+        mistakes.extend([mistake]);
+        return Err(mistakes);
+    }
+    let folder = origin.parent().unwrap_or(Path::new(""));
+    let (scene, root, mut diagnostics) = match read_checked::<Scene<D>>(text, grammar::<D>(), origin) {
+        Ok(read) => read,
+        Err(refusal) => {
+            let Refusal { root, mut mistakes } = *refusal;
+            if let Some(root) = root {
+                mistakes.extend(further_mistakes::<D>(text, &root, &mistakes, folder));
+            }
+            return Err(mistakes);
+        }
+    };
+    let mut tables = Vec::new();
+    for (index, file) in scene.materials_from.iter().enumerate() {
+        match load_table(&folder.join(file)) {
+            Ok(table) => tables.push(table),
+            Err(mistakes) => {
+                let path = ScenePath::root().field("materials_from").index(index);
+                let diagnostic = Diagnostic::error(format!("the material table \"{file}\" cannot be used"))
+                    .about(path)
+                    .labelled("named here");
+                diagnostics.push(diagnostic.located(|path| root.locate(path)));
+                diagnostics.append_file(mistakes);
+            }
+        }
+    }
+    let materials = MaterialLibrary::with_tables(&scene, &tables);
+    // Without all tables every material could be unknown, so only what is certain is told.
+    let are_tables_read = !diagnostics.has_errors();
+    let findings =
+        validate(&scene, &materials).into_iter().filter(|finding| are_tables_read || !finding.needs_all_names);
+    diagnostics.extend(findings.map(|finding| finding.located(|path| root.locate(path))));
+    if diagnostics.has_errors() {
+        return Err(diagnostics);
+    }
+    Ok(Loaded { scene, materials, warnings: diagnostics, text: text.to_owned(), root })
+}
+
+impl Scene {
+    /// Reads a scene of the plane from a text. `origin` names the text in messages; paths inside the scene are relative to its folder.
+    pub fn parse(text: &str, origin: impl AsRef<Path>) -> Result<Loaded, Diagnostics> {
+        Loaded::parse(text, origin)
+    }
+
+    /// Reads a scene of the plane from a file.
+    pub fn load(path: impl AsRef<Path>) -> Result<Loaded, Diagnostics> {
+        Loaded::load(path)
+    }
+}
+
+impl<D: SceneDim> Scene<D> {
     /// Checks a scene that was built in code; gives its warnings.
     pub fn check(&self, materials: &MaterialLibrary) -> Result<Vec<Diagnostic>, Diagnostics> {
         let findings = validate(self, materials);
@@ -100,10 +122,66 @@ impl Scene {
     }
 }
 
+/// A scene of either dimension that was read and found free of mistakes.
+#[derive(Clone, Debug)]
+pub enum AnyLoaded {
+    /// Of the plane.
+    Planar(Loaded<Planar>),
+    /// Of space.
+    Spatial(Loaded<Spatial>),
+}
+
+impl AnyLoaded {
+    /// Reads a scene from a text, of whichever dimension it says. `origin` names the text in messages; paths inside the scene are relative to its
+    /// folder.
+    pub fn parse(text: &str, origin: impl AsRef<Path>) -> Result<Self, Diagnostics> {
+        if dimension_of(text).is_some_and(|(word, _)| word == Spatial::WORD) {
+            Loaded::parse(text, origin).map(Self::Spatial)
+        } else {
+            Loaded::parse(text, origin).map(Self::Planar)
+        }
+    }
+
+    /// Reads a scene from a file, of whichever dimension it says.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
+        let path = path.as_ref();
+        Self::parse(&read_file(path)?, path)
+    }
+}
+
+impl AnyLoaded {
+    /// What the scene shows.
+    pub fn about(&self) -> &str {
+        match self {
+            Self::Planar(loaded) => &loaded.scene.about,
+            Self::Spatial(loaded) => &loaded.scene.about,
+        }
+    }
+}
+
+/// The dimension that a text says or nearly says, and where.
+fn dimension_of(text: &str) -> Option<(&'static str, Range<usize>)> {
+    let (root, _) = text::parse(text);
+    let Some(Node { kind: Kind::Struct { fields, .. }, .. }) = root else { return None };
+    let (_, value) = fields.into_iter().find(|(name, _)| name.text == "dimension")?;
+    let (Kind::Word(word) | Kind::Text(word)) = &value.kind else { return None };
+    Some((nearest(word, [Planar::WORD, Spatial::WORD])?, value.span))
+}
+
+/// Tells that a text says another dimension than this one.
+fn other_dimension<D: SceneDim>(text: &str) -> Option<Diagnostic> {
+    let (word, span) = dimension_of(text)?;
+    let is_said = text[span.clone()] == *word;
+    let message = format!("this scene is not {}", D::WORD);
+    (is_said && word != D::WORD).then(|| {
+        Diagnostic::error(message).at(span).labelled("said here").help("`AnyLoaded` reads scenes of either dimension")
+    })
+}
+
 /// Mistakes in what the text's own mistakes leave of a scene.
-fn further_mistakes(text: &str, root: &Node, known: &Diagnostics, folder: &Path) -> Vec<Diagnostic> {
+fn further_mistakes<D: SceneDim>(text: &str, root: &Node, known: &Diagnostics, folder: &Path) -> Vec<Diagnostic> {
     let spans: Vec<Range<usize>> = known.iter().filter_map(|mistake| mistake.span.clone()).collect();
-    let Some(salvage) = Salvage::of(text, root, &spans) else { return Vec::new() };
+    let Some(salvage) = Salvage::<D>::of(text, root, &spans) else { return Vec::new() };
     let tables: Result<Vec<MaterialTable>, Diagnostics> =
         salvage.scene.materials_from.iter().map(|file| load_table(&folder.join(file))).collect();
     let Ok(tables) = tables else { return Vec::new() };

@@ -17,7 +17,9 @@ mod origin;
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crate::format::{Coefficient, FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Scene, Surface, Take};
+use crate::format::{
+    Coefficient, Dialect, FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Scene, Surface, Take,
+};
 
 pub use origin::{Origin, PairOrigins, Remark, Source};
 
@@ -129,12 +131,12 @@ struct Pair {
 
 impl MaterialLibrary {
     /// The lecture's table and what a scene says itself, without the files it names.
-    pub fn of_scene(scene: &Scene) -> Self {
+    pub fn of_scene<D: Dialect>(scene: &Scene<D>) -> Self {
         Self::with_tables(scene, &[])
     }
 
     /// The lecture's table, further tables, and what a scene says itself.
-    pub fn with_tables(scene: &Scene, tables: &[MaterialTable]) -> Self {
+    pub fn with_tables<D: Dialect>(scene: &Scene<D>, tables: &[MaterialTable]) -> Self {
         let mut library = Self { surface: scene.surface, take: scene.take, ..Self::default() };
         library.add_table(&lecture_table());
         for table in tables {

@@ -5,8 +5,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::dim::SceneDim;
 use crate::expand::{copies, count};
-use crate::format::{BodyEntry, BodyKind, Groups, Scene};
+use crate::format::{BodyEntry, BodyKind, Groups, PartEntry, Scene};
 use crate::materials::DEFAULT_MATERIAL;
 use crate::path::ScenePath;
 
@@ -20,7 +21,7 @@ pub struct Meeting {
 }
 
 /// Every pair of materials that can meet, in alphabetical order.
-pub fn meetings(scene: &Scene) -> Vec<Meeting> {
+pub fn meetings<D: SceneDim>(scene: &Scene<D>) -> Vec<Meeting> {
     let surfaces = surfaces(scene);
     let mut found: BTreeMap<[&str; 2], [usize; 2]> = BTreeMap::new();
     for (index, one) in surfaces.iter().enumerate() {
@@ -61,7 +62,7 @@ impl SurfaceKind<'_> {
 }
 
 /// All different kinds of surfaces; few, however many bodies there are.
-fn surfaces(scene: &Scene) -> Vec<SurfaceKind<'_>> {
+fn surfaces<D: SceneDim>(scene: &Scene<D>) -> Vec<SurfaceKind<'_>> {
     let mut kinds: Vec<SurfaceKind> = Vec::new();
     for (index, body) in scene.bodies.iter().enumerate() {
         for part in scene.parts_of(body).filter(|part| !part.is_sensor()) {
@@ -85,7 +86,7 @@ fn surfaces(scene: &Scene) -> Vec<SurfaceKind<'_>> {
 }
 
 /// The first two bodies with these surfaces that do not ignore each other.
-fn bodies_that_meet(scene: &Scene, one: &SurfaceKind, other: &SurfaceKind) -> Option<[usize; 2]> {
+fn bodies_that_meet<D: SceneDim>(scene: &Scene<D>, one: &SurfaceKind, other: &SurfaceKind) -> Option<[usize; 2]> {
     let pairs = one.bodies.iter().flat_map(|&a| other.bodies.iter().map(move |&b| [a, b]));
     pairs.into_iter().find(|&[a, b]| {
         let (body_a, body_b) = (&scene.bodies[a], &scene.bodies[b]);
@@ -94,7 +95,7 @@ fn bodies_that_meet(scene: &Scene, one: &SurfaceKind, other: &SurfaceKind) -> Op
 }
 
 /// Whether a body ignores another with all its copies.
-fn ignores(scene: &Scene, body: &BodyEntry, other: &BodyEntry) -> bool {
+fn ignores<D: SceneDim>(scene: &Scene<D>, body: &BodyEntry<D>, other: &BodyEntry<D>) -> bool {
     if body.ignores.is_empty() {
         return false;
     }
@@ -103,7 +104,7 @@ fn ignores(scene: &Scene, body: &BodyEntry, other: &BodyEntry) -> bool {
 }
 
 /// Where a body is given a material: in its own field, or wherever its parts stand.
-fn place(scene: &Scene, index: usize, material: &str) -> ScenePath {
+fn place<D: SceneDim>(scene: &Scene<D>, index: usize, material: &str) -> ScenePath {
     let body = &scene.bodies[index];
     let field = if body.material.as_deref() == Some(material) { "material" } else { "name" };
     ScenePath::root().field("bodies").index(index).field(field)

@@ -5,11 +5,11 @@
 
 use std::collections::BTreeMap;
 
-use tumble_math::Planar;
 use tumble_sim::Simulation;
 
 use crate::build::{BuildError, FromScene};
 use crate::diagnostics::Diagnostic;
+use crate::dim::SceneDim;
 use crate::format::Scene;
 use crate::materials::MaterialLibrary;
 use crate::path::ScenePath;
@@ -19,12 +19,22 @@ use crate::path::ScenePath;
 /// # Errors
 ///
 /// When a body cannot be simulated.
-pub fn initial_overlaps(scene: &Scene, materials: &MaterialLibrary) -> Result<Vec<Diagnostic>, BuildError> {
+pub fn initial_overlaps<D: SceneDim>(
+    scene: &Scene<D>,
+    materials: &MaterialLibrary,
+) -> Result<Vec<Diagnostic>, BuildError> {
+    (D::scene_engine().overlaps)(scene, materials)
+}
+
+pub(crate) fn overlaps_at_start<D: SceneDim>(
+    scene: &Scene<D>,
+    materials: &MaterialLibrary,
+) -> Result<Vec<Diagnostic>, BuildError> {
     if scene.allow_overlap {
         return Ok(Vec::new());
     }
     // A simulation of its own, because looking at contacts leaves memories that a run must not begin with.
-    let mut simulation = Simulation::<Planar>::with_materials(scene, materials)?;
+    let mut simulation = Simulation::<D>::with_materials(scene, materials)?;
     simulation.detect()?;
     let mut deepest: BTreeMap<[u64; 2], f64> = BTreeMap::new();
     for (pair, overlap) in simulation.overlaps_deeper_than(scene.slop_or_default()) {

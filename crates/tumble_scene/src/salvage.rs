@@ -7,15 +7,15 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::diagnostics::{Diagnostic, Severity};
-use crate::format::Scene;
+use crate::format::{Dialect, Scene};
 use crate::path::{ScenePath, Segment};
 use crate::text::{self, Kind, Node, Shape};
-use crate::write::SCENE;
+use crate::write::grammar;
 
 /// The sound part of a scene.
-pub(crate) struct Salvage {
+pub(crate) struct Salvage<D: Dialect> {
     /// The smaller scene.
-    pub scene: Scene,
+    pub scene: Scene<D>,
     /// For each list, where its elements stand in the file.
     kept: BTreeMap<String, Vec<usize>>,
     /// Whether something was left out that could declare a name.
@@ -25,11 +25,11 @@ pub(crate) struct Salvage {
 /// Stands for a duration that could not be read: no time is past the end.
 const ENDLESS: &str = "1e300";
 
-impl Salvage {
+impl<D: Dialect> Salvage<D> {
     /// Puts together what holds no mistake.
     pub fn of(source: &str, root: &Node, mistakes: &[Range<usize>]) -> Option<Self> {
         let Kind::Struct { fields: written, .. } = &root.kind else { return None };
-        let Shape::Struct(known) = &SCENE.root else { return None };
+        let Shape::Struct(known) = &grammar::<D>().root else { return None };
         let mut starts: Vec<usize> = mistakes.iter().map(|span| span.start).collect();
         starts.sort_unstable();
         let is_sound = |node: &Node| {
@@ -38,7 +38,8 @@ impl Salvage {
         };
         let mut kept = BTreeMap::new();
         let mut lost_names = !root.complete;
-        let mut fields: BTreeMap<&str, String> = BTreeMap::from([("format", "1".into()), ("duration", ENDLESS.into())]);
+        let mut fields: BTreeMap<&str, String> =
+            BTreeMap::from([("format", "1".into()), ("dimension", D::WORD.into()), ("duration", ENDLESS.into())]);
         for (name, value) in written.iter().filter(|(name, _)| known.iter().any(|field| field.name == name.text)) {
             let text = match &value.kind {
                 _ if is_sound(value) => source[value.span.clone()].to_owned(),

@@ -2,7 +2,7 @@
 
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::format::Scene;
-use crate::load::Loaded;
+use crate::load::{AnyLoaded, Loaded};
 
 /// A scene that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,13 +14,17 @@ pub struct Shipped {
 }
 
 macro_rules! shipped {
-    ($($name:literal),* $(,)?) => {
-        &[$(Shipped { name: $name, text: include_str!(concat!("../../../assets/scenes/planar/", $name, ".ron")) }),*]
+    ($($folder:literal: $($name:literal),* $(,)?;)*) => {
+        &[$($(Shipped {
+            name: $name,
+            text: include_str!(concat!("../../../assets/scenes/", $folder, "/", $name, ".ron")),
+        },)*)*]
     };
 }
 
-/// Every shipped scene, by name.
+/// Every shipped scene: those of the plane by name, then those of space.
 pub const SHIPPED: &[Shipped] = shipped![
+    "planar":
     "angle_of_repose",
     "arch",
     "beam_many_legs",
@@ -54,7 +58,21 @@ pub const SHIPPED: &[Shipped] = shipped![
     "stopping_distance",
     "three_discs",
     "thrown_uphill",
-    "wedge",
+    "wedge";
+    "spatial":
+    "box_corner_impact",
+    "box_stack_3d",
+    "domino_spiral",
+    "edge_edge",
+    "gyroscope",
+    "incline_3d",
+    "opening_pile",
+    "rolling_ball",
+    "slip_to_roll",
+    "symmetric_precession",
+    "t_handle",
+    "table_four_legs",
+    "vertex_face";
 ];
 
 /// The scene that runs when none is named.
@@ -79,13 +97,26 @@ impl Shipped {
         near
     }
 
-    /// Reads it.
+    /// Reads a scene of the plane.
+    ///
+    /// # Errors
+    ///
+    /// For a scene of space: see [`load_any`](Self::load_any).
+    pub fn load(self) -> Result<Loaded, Diagnostics> {
+        Scene::parse(self.text, self.origin())
+    }
+
+    /// Reads a scene of either dimension.
     ///
     /// # Errors
     ///
     /// Never for a scene of [`SHIPPED`]: a test loads them all.
-    pub fn load(self) -> Result<Loaded, Diagnostics> {
-        Scene::parse(self.text, format!("{}.ron", self.name))
+    pub fn load_any(self) -> Result<AnyLoaded, Diagnostics> {
+        AnyLoaded::parse(self.text, self.origin())
+    }
+
+    fn origin(self) -> String {
+        format!("{}.ron", self.name)
     }
 }
 
@@ -98,11 +129,15 @@ mod tests {
 
     #[test]
     fn the_table_is_the_folder() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/planar");
-        let entries = fs::read_dir(folder).expect("the folder of shipped scenes exists");
-        let mut files: Vec<String> =
-            entries.map(|entry| entry.expect("readable").file_name().into_string().expect("a plain name")).collect();
-        files.sort();
+        let mut files = Vec::new();
+        for folder in ["planar", "spatial"] {
+            let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes").join(folder);
+            let entries = fs::read_dir(folder).expect("the folder of shipped scenes exists");
+            let names = entries.map(|entry| entry.expect("readable").file_name().into_string().expect("a plain name"));
+            let mut names: Vec<String> = names.collect();
+            names.sort();
+            files.append(&mut names);
+        }
         let table: Vec<String> = SHIPPED.iter().map(|scene| format!("{}.ron", scene.name)).collect();
         assert_eq!(files, table, "add the new scene to the table, in alphabetical order");
     }
@@ -110,7 +145,7 @@ mod tests {
     #[test]
     fn every_shipped_scene_loads() {
         for scene in SHIPPED {
-            if let Err(mistakes) = scene.load() {
+            if let Err(mistakes) = scene.load_any() {
                 panic!("{mistakes}");
             }
         }

@@ -13,38 +13,30 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod exact;
-mod names;
-
 use bevy_ecs::prelude::{Entity, RelationshipTarget};
-use glam::DVec2;
 use thiserror::Error;
-use tumble_math::{Planar, PlanarRotation, Rotation};
-use tumble_shape::PlanarShape;
-use tumble_sim::joint::JointEntry as JointInTable;
+use tumble_math::{Linear, Planar, Rotation, Vector};
 use tumble_sim::{
-    Amount, Anchor, AppliedForce, BodyIndex, BodyTable, BodyView, CentreOverride, GravityScale, IgnoredPairs,
-    ImpulseSettings, InertiaOverride, Joint, JointTable, Keyframes, LinearDrag, Lock, LockedAxes, MassOverride,
-    MaterialId, Materials, Parts, PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, Spring,
-    SpringDamperSettings, StepError,
+    Anchor, AppliedForce, BodyIndex, BodyTable, BodyView, CentreOverride, GravityScale, IgnoredPairs, ImpulseSettings,
+    InertiaOverride, Joint, JointTable, LinearDrag, Lock, LockedAxes, MassOverride, MaterialId, Materials, Parts,
+    PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings, StepError,
 };
 use tumble_solver::{Surface, velocity_lcp};
 
 use crate::check::Promises;
+use crate::dim::{PartFields, SceneDim};
+use crate::exact::before_shift;
 use crate::format::{
-    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, DiscPart, Drag, Expectation, ForceEntry, FrictionEntry, Groups,
-    HalfPlanePart, ImpulseEntry, Integrator, JointEntry, JointKind, Keyframe, MaterialEntry, ModelEntries, PairEntry,
-    Part, PenaltyEntry, PenaltyLaw, PolygonPart, RestitutionLaw, RodPart, Scene, SpringEntry, VelocityLcpEntry,
-    VelocitySolver,
+    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, Drag, Expectation, ForceEntry, FrictionEntry, Groups, ImpulseEntry,
+    Integrator, JointEntry, MaterialEntry, ModelEntries, PairEntry, PenaltyEntry, PenaltyLaw, RestitutionLaw, Scene,
+    SpringEntry, VelocityLcpEntry, VelocitySolver,
 };
 use crate::initial_overlaps;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
 use crate::validate::open_joints;
-use exact::{before_normalization, before_shift, degrees};
-use names::{bodies_named, joint_named};
 
 /// A simulation written as a scene.
-pub trait ToScene {
+pub trait ToScene<D: SceneDim = Planar> {
     /// The world as it stands now, as the start of a scene.
     ///
     /// A simulation that has not begun to run comes back from its scene bit for bit, provided that the names of its bodies sort
@@ -58,7 +50,7 @@ pub trait ToScene {
     /// # Errors
     ///
     /// When a body cannot be simulated, or something is set that the format has no word for.
-    fn to_scene(&mut self) -> Result<Scene, UnwritableError>;
+    fn to_scene(&mut self) -> Result<Scene<D>, UnwritableError>;
 }
 
 /// Why a simulation cannot be written as a scene.
@@ -80,39 +72,43 @@ pub enum UnwritableError {
     },
 }
 
-impl ToScene for Simulation<Planar> {
-    fn to_scene(&mut self) -> Result<Scene, UnwritableError> {
-        self.prepare()?;
-        // Springs and forces act in the order in which the world holds them, which is the order of the files they make.
-        let world = self.world_mut();
-        let springs: Vec<Spring<DVec2>> = world.query::<&Spring<DVec2>>().iter(world).copied().collect();
-        let forces: Vec<AppliedForce<Planar>> = world.query::<&AppliedForce<Planar>>().iter(world).cloned().collect();
-        let promises = self.world().get_resource::<Promises>().cloned().unwrap_or_default();
-
-        let mut scene = with_settings(self.settings(), promises.scene.as_ref())?;
-        scene.bodies = bodies(self)?;
-        write_materials(self, &mut scene);
-        scene.springs = springs.iter().filter_map(|spring| spring_entry(self, spring)).collect();
-        scene.joints = joint_entries(self);
-        for open in open_joints(&scene) {
-            scene.joints[open].allow_gap = true;
-        }
-        scene.forces = forces.iter().filter_map(|force| force_entry(self, force)).collect();
-        let promised = promises.scene.into_iter().flat_map(|scene| scene.expect).chain(promises.added);
-        let is_there = |name: &str| scene.bodies.iter().any(|body| body.name == name);
-        let is_joint = |name: &str| scene.joints.iter().any(|joint| joint.name == name);
-        let can_be_told =
-            |e: &Expectation| bodies_named(e).into_iter().all(is_there) && joint_named(e).is_none_or(is_joint);
-        scene.expect = promised.filter(can_be_told).collect();
-        // What cannot be looked at cannot overlap either; building the scene will tell what is wrong.
-        scene.allow_overlap =
-            initial_overlaps(&scene, &MaterialLibrary::of_scene(&scene)).is_ok_and(|overlaps| !overlaps.is_empty());
-        Ok(scene)
+impl<D: SceneDim> ToScene<D> for Simulation<D> {
+    fn to_scene(&mut self) -> Result<Scene<D>, UnwritableError> {
+        (D::scene_engine().write_down)(self)
     }
 }
 
+pub(crate) fn written_down<D: SceneDim>(simulation: &mut Simulation<D>) -> Result<Scene<D>, UnwritableError> {
+    simulation.prepare()?;
+    // Springs and forces act in the order in which the world holds them, which is the order of the files they make.
+    let world = simulation.world_mut();
+    let springs: Vec<Spring<D::Vector>> = world.query::<&Spring<D::Vector>>().iter(world).copied().collect();
+    let forces: Vec<AppliedForce<D>> = world.query::<&AppliedForce<D>>().iter(world).cloned().collect();
+    let promises = simulation.world().get_resource::<Promises<D>>().cloned().unwrap_or_default();
+
+    let mut scene = with_settings(simulation.settings(), promises.scene.as_ref())?;
+    scene.bodies = bodies(simulation)?;
+    write_materials(simulation, &mut scene);
+    scene.springs = springs.iter().filter_map(|spring| spring_entry(simulation, spring)).collect();
+    scene.joints = joint_entries(simulation);
+    for open in open_joints(&scene) {
+        scene.joints[open].allow_gap = true;
+    }
+    scene.forces = forces.iter().filter_map(|force| force_entry(simulation, force)).collect();
+    let promised = promises.scene.into_iter().flat_map(|scene| scene.expect).chain(promises.added);
+    let is_there = |name: &str| scene.bodies.iter().any(|body| body.name == name);
+    let is_joint = |name: &str| scene.joints.iter().any(|joint| joint.name == name);
+    let can_be_told =
+        |e: &Expectation<D>| e.claim().bodies().into_iter().all(is_there) && joint_named(e).is_none_or(is_joint);
+    scene.expect = promised.filter(can_be_told).collect();
+    // What cannot be looked at cannot overlap either; building the scene will tell what is wrong.
+    scene.allow_overlap =
+        initial_overlaps(&scene, &MaterialLibrary::of_scene(&scene)).is_ok_and(|overlaps| !overlaps.is_empty());
+    Ok(scene)
+}
+
 /// A scene with settings and nothing in it.
-fn with_settings(settings: &Settings, origin: Option<&Scene>) -> Result<Scene, UnwritableError> {
+fn with_settings<D: SceneDim>(settings: &Settings<D>, origin: Option<&Scene<D>>) -> Result<Scene<D>, UnwritableError> {
     let default = ImpulseSettings::default();
     if settings.speculative_limit.is_some() {
         return Err(UnwritableError::Setting("speculative_limit"));
@@ -123,7 +119,7 @@ fn with_settings(settings: &Settings, origin: Option<&Scene>) -> Result<Scene, U
     if settings.impulse.recovery != default.recovery {
         return Err(UnwritableError::Setting("impulse.recovery"));
     }
-    let blank = Scene::default();
+    let blank = Scene::empty();
     let origin = origin.unwrap_or(&blank);
     Ok(Scene {
         about: origin.about.clone(),
@@ -180,9 +176,9 @@ fn penalty_entry(settings: &PenaltySettings, length_scale: f64) -> PenaltyEntry 
 }
 
 /// Materials that parts are made of, and those of their pairs that do not follow from the materials.
-fn write_materials(simulation: &Simulation, scene: &mut Scene) {
+fn write_materials<D: SceneDim>(simulation: &Simulation<D>, scene: &mut Scene<D>) {
     let materials = simulation.world().resource::<Materials>();
-    let parts = part_entities(simulation).filter_map(|part| simulation.world().get::<tumble_sim::Part<Planar>>(part));
+    let parts = part_entities(simulation).filter_map(|part| simulation.world().get::<tumble_sim::Part<D>>(part));
     let mut used: Vec<MaterialId> = parts.map(|part| part.material).collect();
     used.sort_unstable_by_key(|id| materials.name(*id));
     used.dedup();
@@ -223,18 +219,18 @@ fn write_materials(simulation: &Simulation, scene: &mut Scene) {
     }
 }
 
-fn part_entities(simulation: &Simulation) -> impl Iterator<Item = Entity> {
+fn part_entities<D: SceneDim>(simulation: &Simulation<D>) -> impl Iterator<Item = Entity> {
     let world = simulation.world();
     let bodies = world.resource::<BodyTable>().entries().iter();
     bodies.filter_map(|body| world.get::<Parts>(body.entity)).flat_map(|parts| parts.iter())
 }
 
 /// Every body, in the order of ids.
-fn bodies(simulation: &Simulation) -> Result<Vec<BodyEntry>, UnwritableError> {
+fn bodies<D: SceneDim>(simulation: &Simulation<D>) -> Result<Vec<BodyEntry<D>>, UnwritableError> {
     let world = simulation.world();
     let table = world.resource::<BodyTable>();
     let every_group = part_entities(simulation)
-        .filter_map(|part| world.get::<tumble_sim::Part<Planar>>(part))
+        .filter_map(|part| world.get::<tumble_sim::Part<D>>(part))
         .all(|part| part.groups == tumble_sim::Groups::default());
     let mut bodies = Vec::with_capacity(table.entries().len());
     for entry in table.entries() {
@@ -252,10 +248,13 @@ fn bodies(simulation: &Simulation) -> Result<Vec<BodyEntry>, UnwritableError> {
     Ok(bodies)
 }
 
-fn body(simulation: &Simulation, view: &BodyView<Planar>, name: &str) -> Result<BodyEntry, UnwritableError> {
+fn body<D: SceneDim>(
+    simulation: &Simulation<D>,
+    view: &BodyView<D>,
+    name: &str,
+) -> Result<BodyEntry<D>, UnwritableError> {
     let entity = simulation.world().entity(view.entity());
-    let centre = -view.from_part_frame(DVec2::ZERO);
-    let angle_degrees = degrees(view.angle());
+    let centre = -view.from_part_frame(D::Vector::ZERO);
     let shift = view.rotation().rotate(centre);
     let linear = entity.get::<LinearDrag>().copied().unwrap_or_default();
     let quadratic = entity.get::<QuadraticDrag>().copied().unwrap_or_default();
@@ -270,48 +269,38 @@ fn body(simulation: &Simulation, view: &BodyView<Planar>, name: &str) -> Result<
             tumble_sim::BodyKind::Static => BodyKind::Static,
         },
         at: before_shift(view.position(), shift),
-        angle_degrees,
         velocity: view.velocity(),
         angular_velocity: view.angular_velocity(),
         mass: entity.get::<MassOverride>().map(|mass| mass.0),
-        centre: entity.get::<CentreOverride<DVec2>>().map(|centre| centre.0),
-        inertia: entity.get::<InertiaOverride<f64>>().map(|inertia| inertia.0),
+        centre: entity.get::<CentreOverride<D::Vector>>().map(|centre| centre.0),
+        inertia: entity.get::<InertiaOverride<D::Inertia>>().map(|inertia| D::inertia_entry(inertia.0)),
         gravity_scale: entity.get::<GravityScale>().map_or(1.0, |scale| scale.0),
         drag: Drag { linear: linear.translation, quadratic: quadratic.translation, turning: linear.rotation },
         pinned: entity.contains::<Pinned>(),
-        locked: entity.get::<LockedAxes<DVec2>>().map(locked_axes).unwrap_or_default(),
+        locked: entity.get::<LockedAxes<D::Vector>>().map(locked_axes::<D>).unwrap_or_default(),
         ..BodyEntry::default()
     };
-    if let Some(path) = entity.get::<Keyframes<DVec2, f64>>() {
-        // The path gives the velocity.
-        (body.velocity, body.angular_velocity) = (DVec2::ZERO, 0.0);
-        let centre = body.centre.unwrap_or(DVec2::ZERO);
-        let frames = path.0.iter().map(|frame| Keyframe {
-            time: frame.time,
-            at: before_shift(frame.position, PlanarRotation::from_angle(frame.angle).rotate(centre)),
-            angle_degrees: degrees(frame.angle),
-        });
-        body.keyframes = frames.collect();
-    }
-    write_parts(simulation, view.entity(), &mut body);
+    D::write_rotation(&mut body, view.rotation());
+    D::write_keyframes(&entity, &mut body);
+    write_parts(simulation, view.entity(), &mut body)?;
     Ok(body)
 }
 
-fn locked_axes(locked: &LockedAxes<DVec2>) -> Vec<Axis> {
-    let axes = [
-        (Axis::X, locked.translation.x != 0.0),
-        (Axis::Y, locked.translation.y != 0.0),
-        (Axis::Angle, locked.rotation == Lock::Locked),
-    ];
-    axes.into_iter().filter(|(_, is_locked)| *is_locked).map(|(axis, _)| axis).collect()
+fn locked_axes<D: SceneDim>(locked: &LockedAxes<D::Vector>) -> Vec<Axis> {
+    let along = (0..D::Vector::AXES).filter(|&axis| locked.translation[axis] != 0.0).map(|axis| Axis::ALONG[axis]);
+    along.chain((locked.rotation == Lock::Locked).then_some(Axis::Angle)).collect()
 }
 
 /// Writes the parts; what they have in common goes to the body.
-fn write_parts(simulation: &Simulation, entity: Entity, body: &mut BodyEntry) {
+fn write_parts<D: SceneDim>(
+    simulation: &Simulation<D>,
+    entity: Entity,
+    body: &mut BodyEntry<D>,
+) -> Result<(), UnwritableError> {
     let world = simulation.world();
     let parts = world.get::<Parts>(entity).into_iter().flat_map(|parts| parts.iter());
-    let parts: Vec<&tumble_sim::Part<Planar>> = parts.filter_map(|part| world.get(part)).collect();
-    let Some(first) = parts.first() else { return };
+    let parts: Vec<&tumble_sim::Part<D>> = parts.filter_map(|part| world.get(part)).collect();
+    let Some(first) = parts.first() else { return Ok(()) };
     let materials = world.resource::<Materials>();
     let name = |id: MaterialId| Some(materials.name(id).to_owned());
     let one_material = parts.iter().all(|part| part.material == first.material);
@@ -321,55 +310,23 @@ fn write_parts(simulation: &Simulation, entity: Entity, body: &mut BodyEntry) {
         body.groups = Groups::Bits(first.groups.member_of);
         body.collides_with = Groups::Bits(first.groups.accepts);
     }
-    body.parts = parts
-        .iter()
-        .map(|part| {
-            let surface = PartOptions {
-                material: name(part.material).filter(|_| !one_material),
-                groups: (!one_group).then_some(Groups::Bits(part.groups.member_of)),
-                collides_with: (!one_group).then_some(Groups::Bits(part.groups.accepts)),
-            };
-            part_entry(part, surface)
-        })
-        .collect();
-}
-
-/// What a part says for itself rather than leaving it to its body.
-struct PartOptions {
-    material: Option<String>,
-    groups: Option<Groups>,
-    collides_with: Option<Groups>,
-}
-
-fn part_entry(part: &tumble_sim::Part<Planar>, options: PartOptions) -> Part {
-    let PartOptions { material, groups, collides_with } = options;
-    let sensor = part.response == Response::Sensor;
-    let (density, mass) = match part.amount {
-        Amount::Density(density) => (Some(density), None),
-        Amount::Mass(mass) => (None, Some(mass)),
-    };
-    match &part.shape {
-        PlanarShape::Rod(rod) => {
-            let (from, to, radius) = (rod.from(), rod.to(), rod.radius());
-            Part::Rod(RodPart { from, to, radius, density, mass, material, sensor, groups, collides_with })
-        }
-        PlanarShape::Disc(disc) => {
-            let (at, radius) = (disc.centre(), disc.radius());
-            Part::Disc(DiscPart { at, radius, density, mass, material, sensor, groups, collides_with })
-        }
-        PlanarShape::ConvexPolygon(polygon) => {
-            let points = polygon.points().to_vec();
-            Part::Polygon(PolygonPart { points, density, mass, material, sensor, groups, collides_with })
-        }
-        PlanarShape::HalfPlane(plane) => {
-            let (normal, offset) = (before_normalization(plane.normal()), plane.offset());
-            Part::HalfPlane(HalfPlanePart { normal, offset, material, sensor, groups, collides_with })
-        }
+    for part in &parts {
+        let fields = PartFields {
+            amount: part.amount,
+            material: name(part.material).filter(|_| !one_material),
+            sensor: part.response == Response::Sensor,
+            groups: (!one_group).then_some(Groups::Bits(part.groups.member_of)),
+            collides_with: (!one_group).then_some(Groups::Bits(part.groups.accepts)),
+        };
+        let unwritable = || UnwritableError::Body { body: body.name.clone(), what: "ground made of triangles" };
+        let part = D::part(&part.shape, fields).ok_or_else(unwritable)?;
+        body.parts.push(part);
     }
+    Ok(())
 }
 
 /// `None` if a body that it holds is gone, and the spring does nothing.
-fn spring_entry(simulation: &Simulation, spring: &Spring<DVec2>) -> Option<SpringEntry> {
+fn spring_entry<D: SceneDim>(simulation: &Simulation<D>, spring: &Spring<D::Vector>) -> Option<SpringEntry<D>> {
     Some(SpringEntry {
         from: anchor_entry(simulation, &spring.a)?,
         to: anchor_entry(simulation, &spring.b)?,
@@ -380,25 +337,26 @@ fn spring_entry(simulation: &Simulation, spring: &Spring<DVec2>) -> Option<Sprin
 }
 
 /// Every joint, in the order of the table; joints cannot hold bodies that are gone.
-fn joint_entries(simulation: &Simulation) -> Vec<JointEntry> {
+fn joint_entries<D: SceneDim>(simulation: &Simulation<D>) -> Vec<JointEntry<D>> {
     let world = simulation.world();
-    let entries = world.resource::<JointTable<Planar>>().entries().iter();
-    let entry = |entry: &JointInTable<Planar>| {
-        let joint = world.get::<Joint<DVec2>>(entry.entity)?;
-        let (a, b) = (anchor_entry(simulation, &joint.a)?, anchor_entry(simulation, &joint.b)?);
-        let kind = match joint.kind {
-            tumble_sim::JointKind::Revolute => JointKind::Revolute,
-            tumble_sim::JointKind::Distance { length } => JointKind::Distance { length: Some(length) },
-            tumble_sim::JointKind::Fixed => JointKind::Fixed,
-            tumble_sim::JointKind::Prismatic { axis } => JointKind::Prismatic { axis },
-        };
-        Some(JointEntry { name: entry.name.clone(), kind, a, b, allow_gap: false })
-    };
-    entries.filter_map(entry).collect()
+    let mut entries = Vec::new();
+    for entry in world.resource::<JointTable<D>>().entries() {
+        let Some(joint) = world.get::<Joint<D::Vector>>(entry.entity) else { continue };
+        let ends = [&joint.a, &joint.b].map(|anchor| anchor_entry(simulation, anchor));
+        let [Some(a), Some(b)] = ends else { continue };
+        let kind = D::joint_entry(&joint.kind);
+        entries.push(JointEntry { name: entry.name.clone(), kind, a, b, allow_gap: false });
+    }
+    entries
+}
+
+/// Name of the joint, if the expectation is about one.
+fn joint_named<D: SceneDim>(expectation: &Expectation<D>) -> Option<&str> {
+    if let Expectation::JointForce(e) = expectation { Some(&e.of) } else { None }
 }
 
 /// `None` if its body is gone.
-fn anchor_entry(simulation: &Simulation, anchor: &Anchor<DVec2>) -> Option<AnchorEntry> {
+fn anchor_entry<D: SceneDim>(simulation: &Simulation<D>, anchor: &Anchor<D::Vector>) -> Option<AnchorEntry<D>> {
     match *anchor {
         Anchor::World(point) => Some(AnchorEntry::World { point }),
         Anchor::Body(entity, point) => {
@@ -409,7 +367,7 @@ fn anchor_entry(simulation: &Simulation, anchor: &Anchor<DVec2>) -> Option<Ancho
 }
 
 /// `None` if its body is gone, and the force does nothing.
-fn force_entry(simulation: &Simulation, force: &AppliedForce<Planar>) -> Option<ForceEntry> {
+fn force_entry<D: SceneDim>(simulation: &Simulation<D>, force: &AppliedForce<D>) -> Option<ForceEntry<D>> {
     let (name, body) = body_of(simulation, force.body)?;
     Some(ForceEntry {
         on: name.to_owned(),
@@ -426,13 +384,13 @@ fn force_entry(simulation: &Simulation, force: &AppliedForce<Planar>) -> Option<
     })
 }
 
-fn body_of(simulation: &Simulation, entity: Entity) -> Option<(&str, BodyView<'_, Planar>)> {
+fn body_of<D: SceneDim>(simulation: &Simulation<D>, entity: Entity) -> Option<(&str, BodyView<'_, D>)> {
     let index = simulation.world().get::<BodyIndex>(entity)?;
     let name = &simulation.world().resource::<BodyTable>().entry(index.0).name;
     Some((name, simulation.body(name).ok()?))
 }
 
 /// A point of the body frame in the frame of the parts [m]; `None` for the centre of mass.
-fn design_point(body: &BodyView<Planar>, point: DVec2) -> Option<DVec2> {
-    (point != DVec2::ZERO).then(|| before_shift(point, body.from_part_frame(DVec2::ZERO)))
+fn design_point<D: SceneDim>(body: &BodyView<D>, point: D::Vector) -> Option<D::Vector> {
+    (point != D::Vector::ZERO).then(|| before_shift(point, body.from_part_frame(D::Vector::ZERO)))
 }

@@ -4,40 +4,53 @@ use std::fmt::Write;
 use std::sync::LazyLock;
 
 use serde_json::Value;
+use tumble_math::{Planar, Spatial};
 
-use crate::format::Scene;
+use crate::dim::SceneDim;
+use crate::format::{Dialect, Scene};
+use crate::schema::schema_of;
 use crate::text::{Field, Grammar, Shape};
 
 /// What fits on one line is written on one line.
 const WIDTH: usize = 110;
 
-/// The grammar of scenes.
-pub(crate) static SCENE: LazyLock<Grammar> = LazyLock::new(Grammar::of::<Scene>);
+/// The grammar of the scenes of a dimension.
+pub(crate) fn grammar<D: Dialect>() -> &'static Grammar {
+    static PLANAR: LazyLock<Grammar> = LazyLock::new(|| Grammar::of_schema(&schema_of::<Planar>()));
+    static SPATIAL: LazyLock<Grammar> = LazyLock::new(|| Grammar::of_schema(&schema_of::<Spatial>()));
+    if D::WORD == Spatial::WORD { &SPATIAL } else { &PLANAR }
+}
 
-impl Scene {
+impl<D: SceneDim> Scene<D> {
     /// The scene as a RON file. Reading it gives an equal scene, provided that every number is finite.
     pub fn to_ron(&self) -> String {
-        let value = serde_json::to_value(self).expect("a scene is plain data");
-        let mut writer = Writer { out: String::new() };
-        writer.value(&value, &SCENE.root, 0, 0);
-        writer.out.push('\n');
-        writer.out
+        (D::scene_engine().write)(self)
     }
 }
 
+pub(crate) fn written<D: SceneDim>(scene: &Scene<D>) -> String {
+    let value = serde_json::to_value(scene).expect("a scene is plain data");
+    let grammar = grammar::<D>();
+    let mut writer = Writer { grammar, out: String::new() };
+    writer.value(&value, &grammar.root, 0, 0);
+    writer.out.push('\n');
+    writer.out
+}
+
 struct Writer {
+    grammar: &'static Grammar,
     out: String,
 }
 
 impl Writer {
     /// Writes a value at a depth of indentation, on one line if it fits with what precedes it there.
     fn value(&mut self, value: &Value, shape: &Shape, depth: usize, before: usize) {
-        let line = one_line(value, shape);
+        let line = one_line(self.grammar, value, shape);
         if depth > 0 && 4 * depth + before + line.chars().count() < WIDTH {
             self.out.push_str(&line);
             return;
         }
-        match (SCENE.resolve(shape), value) {
+        match (self.grammar.resolve(shape), value) {
             (Shape::Optional(inner), _) => self.value(value, inner, depth, before),
             (Shape::Struct(fields), Value::Object(object)) => {
                 let written = written_fields(fields, object);
@@ -64,12 +77,12 @@ impl Writer {
                 let shape =
                     variants.iter().find(|variant| variant.name == *name).and_then(|variant| variant.content.as_ref());
                 self.out.push_str(name);
-                match shape.map(|shape| (SCENE.resolve(shape), shape)) {
+                match shape.map(|shape| (self.grammar.resolve(shape), shape)) {
                     Some((Shape::Struct(_), shape)) => self.value(content, shape, depth, WIDTH),
                     _ => self.out.push_str(&line[name.len()..]),
                 }
             }
-            (Shape::Either(shapes), _) => match shapes.iter().find(|shape| fits(value, shape)) {
+            (Shape::Either(shapes), _) => match shapes.iter().find(|shape| fits(self.grammar, value, shape)) {
                 Some(shape) => self.value(value, shape, depth, before),
                 None => self.out.push_str(&line),
             },
@@ -107,30 +120,34 @@ fn written_fields<'v>(fields: &'v [Field], object: &'v serde_json::Map<String, V
 }
 
 /// A value on one line.
-fn one_line(value: &Value, shape: &Shape) -> String {
-    match (SCENE.resolve(shape), value) {
+fn one_line(grammar: &Grammar, value: &Value, shape: &Shape) -> String {
+    match (grammar.resolve(shape), value) {
         (Shape::Optional(_), Value::Null) => "None".into(),
-        (Shape::Optional(inner), _) => one_line(value, inner),
+        (Shape::Optional(inner), _) => one_line(grammar, value, inner),
         (Shape::Struct(fields), Value::Object(object)) => {
             let fields = written_fields(fields, object);
             joined(
                 '(',
                 ')',
-                fields.iter().map(|(field, value)| format!("{}: {}", field.name, one_line(value, &field.shape))),
+                fields
+                    .iter()
+                    .map(|(field, value)| format!("{}: {}", field.name, one_line(grammar, value, &field.shape))),
             )
         }
         (Shape::Map(shape), Value::Object(object)) => {
-            joined('{', '}', object.iter().map(|(key, value)| format!("{key:?}: {}", one_line(value, shape))))
+            joined('{', '}', object.iter().map(|(key, value)| format!("{key:?}: {}", one_line(grammar, value, shape))))
         }
-        (Shape::List(shape), Value::Array(items)) => joined('[', ']', items.iter().map(|item| one_line(item, shape))),
+        (Shape::List(shape), Value::Array(items)) => {
+            joined('[', ']', items.iter().map(|item| one_line(grammar, item, shape)))
+        }
         (Shape::Tuple(shapes), Value::Array(items)) => {
-            joined('(', ')', items.iter().zip(shapes).map(|(item, shape)| one_line(item, shape)))
+            joined('(', ')', items.iter().zip(shapes).map(|(item, shape)| one_line(grammar, item, shape)))
         }
         (Shape::Enum(variants), Value::Object(object)) => {
             let Some((name, content)) = object.iter().next() else { return String::new() };
             let shape =
                 variants.iter().find(|variant| variant.name == *name).and_then(|variant| variant.content.as_ref());
-            let content = shape.map(|shape| (SCENE.resolve(shape), one_line(content, shape)));
+            let content = shape.map(|shape| (grammar.resolve(shape), one_line(grammar, content, shape)));
             match content {
                 Some((Shape::Struct(_) | Shape::Tuple(_), text)) => format!("{name}{text}"),
                 Some((_, text)) => format!("{name}({text})"),
@@ -138,8 +155,8 @@ fn one_line(value: &Value, shape: &Shape) -> String {
             }
         }
         (Shape::Enum(_), Value::String(word)) => word.clone(),
-        (Shape::Either(shapes), _) => match shapes.iter().find(|shape| fits(value, shape)) {
-            Some(shape) => one_line(value, shape),
+        (Shape::Either(shapes), _) => match shapes.iter().find(|shape| fits(grammar, value, shape)) {
+            Some(shape) => one_line(grammar, value, shape),
             None => "None".into(),
         },
         (_, Value::String(text)) => format!("{text:?}"),
@@ -150,9 +167,9 @@ fn one_line(value: &Value, shape: &Shape) -> String {
     }
 }
 
-fn fits(value: &Value, shape: &Shape) -> bool {
+fn fits(grammar: &Grammar, value: &Value, shape: &Shape) -> bool {
     matches!(
-        (SCENE.resolve(shape), value),
+        (grammar.resolve(shape), value),
         (Shape::Number | Shape::Whole(_), Value::Number(_)) | (Shape::List(_) | Shape::Tuple(_), Value::Array(_))
     )
 }

@@ -1,12 +1,13 @@
 //! Simulations are held to what was promised of them, by a scene or in code.
 
 use glam::{DVec2, dvec2};
+use tumble_math::Spatial;
 use tumble_record::{Record, Sampling};
 use tumble_scene::expect::{NotMeasured, Status, watched_steps};
 use tumble_scene::format::{
     BodyEntry, DiscPart, Expectation, ForceExpectation, Part, ScalarExpectation, Scene, TargetForce,
 };
-use tumble_scene::{Check, FromScene, RunError};
+use tumble_scene::{Check, FromScene, Loaded, RunError};
 use tumble_shape::{Disc, HalfPlane};
 use tumble_sim::{Amount, BodyKind, GravityScale, Position, Settings, Simulation};
 
@@ -165,5 +166,40 @@ fn samples_of_the_steps_that_are_watched_give_the_verdict_of_all_steps() -> Resu
     let (watched, samples) = verdict_of(Sampling::every(1000).and(watched_steps(&scene, scene.contact)))?;
     assert_eq!(watched, full);
     assert!(samples < 80, "{samples} of 201 steps are sampled");
+    Ok(())
+}
+
+/// What a scene of the plane and the one of space that it is at z = 0 have in common.
+const TILTED_BOX: &str = r#"
+    format: 1, duration: 1, dt: 0.001, contact: VelocityLcp,
+    materials: { "default": (static_friction: 0.5, kinetic_friction: 0.4) },
+"#;
+
+#[test]
+fn a_planar_scene_embedded_in_space_moves_alike() -> Result<(), Box<dyn std::error::Error>> {
+    let planar = format!(
+        r#"({TILTED_BOX} bodies: [
+            (name: "floor", kind: Static, parts: [HalfPlane()]),
+            (name: "box", at: (0, 0.8), angle_degrees: 25, velocity: (0.5, 0), angular_velocity: -1.5, parts: [Box(size: (1, 0.5), mass: 2)]),
+        ])"#
+    );
+    let spatial = format!(
+        r#"({TILTED_BOX} dimension: Spatial, bodies: [
+            (name: "floor", kind: Static, parts: [HalfSpace()]),
+            (name: "box", at: (0, 0.8, 0), orientation: Turn(axis: (0, 0, 1), angle_degrees: 25), velocity: (0.5, 0, 0), angular_velocity: (0, 0, -1.5),
+                parts: [Box(size: (1, 0.5, 0.7), mass: 2)]),
+        ])"#
+    );
+    let mut flat = Simulation::from_loaded(&Scene::parse(&planar, "plane.ron")?)?;
+    let mut deep = Simulation::from_loaded(&Loaded::<Spatial>::parse(&spatial, "space.ron")?)?;
+    for _ in 0..1000 {
+        flat.step()?;
+        deep.step()?;
+        let (in_plane, in_space) = (flat.body("box")?, deep.body("box")?);
+        let seen = in_space.position();
+        // Quaternions and angles round differently, and each of the few impacts multiplies that.
+        assert!((in_plane.position().extend(0.0) - seen).length() < 1e-9, "{seen} at {} s", flat.time());
+        assert!((in_plane.angular_velocity() - in_space.angular_velocity().z).abs() < 1e-8, "at {} s", flat.time());
+    }
     Ok(())
 }

@@ -292,7 +292,7 @@ fn scene() -> impl Strategy<Value = Scene> {
                         at: None,
                         from: None,
                         until: None,
-                        is: if flag { TargetForce::Vector(amount, 2.0) } else { TargetForce::Newtons(amount) },
+                        is: if flag { TargetForce::Vector(dvec2(amount, 2.0)) } else { TargetForce::Newtons(amount) },
                         within: 0.5,
                         because: String::new(),
                         under: Vec::new(),

@@ -3,6 +3,7 @@
 use glam::{DVec2, dvec2};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use tumble_math::Spatial;
 use tumble_record::{Fingerprint, Record};
 use tumble_scene::format::{
     AnchorEntry, Axes, Axis, BodyEntry, BodyKind, BoxPart, ContactModel, DiscPart, Drag, Expectation, ForceEntry,
@@ -10,11 +11,11 @@ use tumble_scene::format::{
     ModelEntries, PairEntry, Part, PenaltyEntry, PenaltyLaw, PolygonPart, RodPart, Scene, SpringEntry,
 };
 use tumble_scene::shipped::SHIPPED;
-use tumble_scene::{Check, FromScene, ToScene, UnwritableError};
+use tumble_scene::{AnyLoaded, Check, FromScene, Loaded, SceneDim, ToScene, UnwritableError};
 use tumble_sim::{Orientation, Position, QuadraticDrag, Settings, Simulation};
 
 /// The state after some steps, or where and why the run failed.
-fn state_after(steps: u32, simulation: &mut Simulation) -> Result<Fingerprint, String> {
+fn state_after<D: SceneDim>(steps: u32, simulation: &mut Simulation<D>) -> Result<Fingerprint, String> {
     simulation.record(u32::MAX).map_err(|error| error.to_string())?;
     for _ in 0..steps {
         simulation.step().map_err(|error| error.to_string())?;
@@ -24,10 +25,10 @@ fn state_after(steps: u32, simulation: &mut Simulation) -> Result<Fingerprint, S
 }
 
 /// Builds a scene, writes it, reads and builds what was written, and compares both after 100 steps.
-fn same_bits_after_a_round_trip(mut first: Simulation) -> Result<(), String> {
+fn same_bits_after_a_round_trip<D: SceneDim>(mut first: Simulation<D>) -> Result<(), String> {
     let written = first.to_scene().map_err(|error| error.to_string())?;
     let text = written.to_ron();
-    let read = Scene::parse(&text, "written.ron").map_err(|mistakes| format!("{mistakes}\n{text}"))?;
+    let read = Loaded::<D>::parse(&text, "written.ron").map_err(|mistakes| format!("{mistakes}\n{text}"))?;
     if read.scene != written {
         return Err(format!("reading gives another scene\n{text}"));
     }
@@ -43,10 +44,53 @@ fn same_bits_after_a_round_trip(mut first: Simulation) -> Result<(), String> {
 #[test]
 fn shipped_scenes_come_back_bit_for_bit() {
     for shipped in SHIPPED {
-        let loaded = shipped.load().unwrap_or_else(|mistakes| panic!("{mistakes}"));
-        let simulation = Simulation::from_loaded(&loaded).unwrap_or_else(|error| panic!("{}: {error}", shipped.name));
-        same_bits_after_a_round_trip(simulation).unwrap_or_else(|reason| panic!("{}: {reason}", shipped.name));
+        let loaded = shipped.load_any().unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let compared = match loaded {
+            AnyLoaded::Planar(loaded) => Simulation::from_loaded(&loaded).map(same_bits_after_a_round_trip),
+            AnyLoaded::Spatial(loaded) => Simulation::from_loaded(&loaded).map(same_bits_after_a_round_trip),
+        };
+        let compared = compared.unwrap_or_else(|error| panic!("{}: {error}", shipped.name));
+        compared.unwrap_or_else(|reason| panic!("{}: {reason}", shipped.name));
     }
+}
+
+#[test]
+fn everything_that_space_has_comes_back_bit_for_bit() -> Result<(), Box<dyn std::error::Error>> {
+    let text = r#"(
+        format: 1, dimension: Spatial, duration: 1, gravity: (0, -9.81, 0.1), contact: VelocityLcp,
+        materials: { "rubber": (static_friction: 0.8, kinetic_friction: 0.7, restitution: 0.3) },
+        part_lists: { "hammer": [
+            Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 0.1, density: 3),
+            Box(size: (0.4, 0.2, 0.2), at: (0, 1, 0), orientation: Turn(axis: (0, 1, 0), angle_degrees: 30)),
+        ] },
+        bodies: [
+            (name: "floor", kind: Static, at: (0, -5, 0), material: "rubber", parts: [HalfSpace(normal: (0.1, 1, 0.2))]),
+            (name: "hammer", at: (3, 0, 0), angular_velocity: (1, 2, 3), parts: [List("hammer")], ignores: ["stone"],
+                orientation: Turns([(axis: (1, 0, 0), angle_degrees: 20), (axis: (0, 1, 1), angle_degrees: -70)])),
+            (name: "stone", velocity: (0, 0, 1), material: "rubber", orientation: Quaternion(1, 2, 3, 4), parts: [
+                Hull(points: [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], mass: 2),
+            ]),
+            (name: "pill", at: (-3, 0, 0), centre: (0.1, 0, 0), inertia: Tensor(xx: 1, yy: 2, zz: 2.5, xy: 0.1), parts: [
+                Capsule(from: (0, 0, 0), to: (0, 0, 1), radius: 0.2), Sphere(radius: 0.3, groups: 2, collides_with: 1),
+            ]),
+            (name: "crate", at: (0, 4, 0), parts: [Box(size: (0.5, 0.5, 0.5))], locked: [Z],
+                repeat: Grid(count: (2, 2, 2), spacing: (1, 1, 1), jitter: (at: (0.1, 0.1, 0.1), angle_degrees: 20))),
+            (name: "top", at: (9, 0, 0), parts: [Cone(base: (0, 1, 0), tip: (0, 0, 0), radius: 0.5)], pinned: true),
+            (name: "stick", at: (9, 0, 9), inertia: Diagonal(0.1, 0.1, 0.1), parts: [Rod(from: (0, 0, 0), to: (1, 0, 0))]),
+        ],
+        springs: [(from: World(point: (3, 5, 0)), to: Body(name: "hammer", point: (0, 1, 0)), stiffness: 3)],
+        joints: [
+            (name: "ball", kind: Spherical, a: World(point: (9, 0, 9)), b: Body(name: "stick", point: (0, 0, 0))),
+            (name: "hinge", kind: Revolute(axis: (0, 1, 0)), a: World(point: (-3, 0, 0)), b: Body(name: "pill", point: (0, 0, 0))),
+            (name: "weld", kind: Fixed, a: Body(name: "crate-0-0-0"), b: Body(name: "crate-1-1-1"), allow_gap: true),
+            (name: "slide", kind: Prismatic(axis: (0, 0, 2)), a: World(point: (0, 0, 0)), b: Body(name: "stone", point: (0, 0, 0))),
+            (name: "rope", kind: Distance(length: 3.4), a: Body(name: "stone"), b: Body(name: "pill"), allow_gap: true),
+        ],
+        forces: [(on: "hammer", force: (1, 0, 0), torque: (0, 0.1, 0), axes: Body, until: 0.5)],
+        expect: [TurnRate(of: "hammer", always: true, below: 100), Orientation(of: "top", always: true, within_degrees: 1)],
+    )"#;
+    let loaded = Loaded::<Spatial>::parse(text, "all.ron")?;
+    Ok(same_bits_after_a_round_trip(Simulation::from_loaded(&loaded)?)?)
 }
 
 #[test]

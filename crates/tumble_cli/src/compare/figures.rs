@@ -1,6 +1,8 @@
 //! What is measured of a run.
 
+use tumble_math::Linear;
 use tumble_record::{BodyKind, Recording, Sample, energy_drift};
+use tumble_scene::SceneDim;
 use tumble_scene::expect::{Status, Verdict};
 use tumble_scene::format::{Expectation, Scene};
 
@@ -41,7 +43,13 @@ pub struct Row {
 
 impl Row {
     /// Measures a run.
-    pub fn of(case: &Case, run: &Run, verdict: &Verdict, resting: &[usize], reference: Option<&Reference>) -> Self {
+    pub fn of<D: SceneDim>(
+        case: &Case,
+        run: &Run<D>,
+        verdict: &Verdict,
+        resting: &[usize],
+        reference: Option<&Reference<D>>,
+    ) -> Self {
         let recording = &run.recording;
         let steps = recording.samples.last().map_or(0, |sample| sample.step);
         let failure = match &run.ending {
@@ -79,7 +87,7 @@ pub fn worse(one: f64, other: f64) -> f64 {
 }
 
 /// Bodies that the scene expects to be at rest in the last tenth of the run, under any model.
-pub fn resting_bodies(scene: &Scene, recording: &Recording) -> Vec<usize> {
+pub fn resting_bodies<D: SceneDim>(scene: &Scene<D>, recording: &Recording<D>) -> Vec<usize> {
     let is_dynamic = |body: &usize| recording.bodies[*body].kind == BodyKind::Dynamic;
     let mut bodies = Vec::new();
     for expectation in &scene.expect {
@@ -100,12 +108,12 @@ pub fn resting_bodies(scene: &Scene, recording: &Recording) -> Vec<usize> {
 }
 
 /// Largest drift of these bodies over the last tenth of the run [m/min].
-fn creep(recording: &Recording, bodies: &[usize]) -> Option<f64> {
+fn creep<D: SceneDim>(recording: &Recording<D>, bodies: &[usize]) -> Option<f64> {
     let end = recording.samples.last()?;
     let start = recording.samples.iter().find(|sample| sample.time >= 0.9 * end_of(recording) - 0.6 * recording.dt)?;
     let minutes = (end.time - start.time) / 60.0;
     let drift = |body: &usize| {
-        let place = |sample: &Sample| sample.state(*body).map(|state| state.position);
+        let place = |sample: &Sample<D>| sample.state(*body).map(|state| state.position);
         Some((place(end)? - place(start)?).length())
     };
     let drift = bodies.iter().filter_map(drift).reduce(worse)?;

@@ -11,9 +11,9 @@ use std::path::Path;
 
 use tumble_record::plot::{Plot, Strokes};
 use tumble_record::{Channel, Completeness, MOST_CURVES, OutputFolder, Recording, Series};
-use tumble_scene::Loaded;
 use tumble_scene::expect::watched_steps;
 use tumble_scene::format::ContactModel;
+use tumble_scene::{AnyLoaded, Loaded, SceneDim};
 
 use crate::args::{CompareArguments, Overrides};
 use crate::failure::{Exit, Failure, stderr_color, tell};
@@ -33,17 +33,28 @@ const REFERENCE_STEPS: u32 = 16;
 /// Runs the scene in every combination, prints the table, and writes `compare.csv` and `compare.svg`.
 pub fn compare(arguments: &CompareArguments, page: &mut Page) -> Result<Exit, Failure> {
     let source = Source::of(&arguments.scene)?;
-    let loaded = source.load()?;
+    match source.load()? {
+        AnyLoaded::Planar(loaded) => compare_loaded(arguments, &source, &loaded, page),
+        AnyLoaded::Spatial(loaded) => compare_loaded(arguments, &source, &loaded, page),
+    }
+}
+
+fn compare_loaded<D: SceneDim>(
+    arguments: &CompareArguments,
+    source: &Source,
+    loaded: &Loaded<D>,
+    page: &mut Page,
+) -> Result<Exit, Failure> {
     if !loaded.warnings.is_empty() {
         tell(loaded.warnings.render(stderr_color()));
     }
-    let Chosen { cases, left_out } = choose(arguments, &loaded)?;
+    let Chosen { cases, left_out } = choose(arguments, loaded)?;
     let name = source.stem().to_string_lossy().into_owned();
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new(OUT).join(&name).join("compare"));
     let folder = OutputFolder::new(folder);
     // Everything that can be refused is refused before the first long run.
     let mut prepared =
-        cases.iter().map(|case| case.prepare(&source, &loaded)).collect::<Result<Vec<Prepared>, Failure>>()?;
+        cases.iter().map(|case| case.prepare(source, loaded)).collect::<Result<Vec<Prepared<D>>, Failure>>()?;
     let channel = channel(arguments, &mut prepared)?;
     let finest = cases.iter().map(|case| case.dt).fold(f64::INFINITY, f64::min);
     // Where nothing is expected, the scene's own model with small steps is the measure.
@@ -51,7 +62,7 @@ pub fn compare(arguments: &CompareArguments, page: &mut Page) -> Result<Exit, Fa
     let fallback = (!cases.iter().any(is_claimed)).then_some(loaded.scene.contact);
     let measure = arguments.reference.or(fallback);
     let reference = measure.map(|contact| Case { contact, dt: finest / f64::from(REFERENCE_STEPS) });
-    let reference = reference.map(|case| Reference::prepare(&case, &source)).transpose()?;
+    let reference = reference.map(|case| Reference::prepare(&case, source, loaded)).transpose()?;
     folder.prepare(Completeness::Whole).map(drop)?;
     interrupt::listen();
 
@@ -119,11 +130,11 @@ pub struct Case {
 }
 
 impl Case {
-    fn prepare(&self, source: &Source, loaded: &Loaded) -> Result<Prepared, Failure> {
+    fn prepare<D: SceneDim>(&self, source: &Source, loaded: &Loaded<D>) -> Result<Prepared<D>, Failure> {
         let overrides = Overrides { contact: Some(self.contact), dt: Some(self.dt), duration: None };
         // Rest is measured from the beginning of the last tenth on.
         let last_tenth = (0.9 * (loaded.scene.duration / self.dt).round()).round() as u64;
-        Prepared::sampled(source, source.load()?, &overrides, None, |scene| {
+        Prepared::sampled(source, loaded.clone(), &overrides, None, |scene| {
             let mut spans = watched_steps(scene, scene.contact);
             spans.push(last_tenth..=last_tenth);
             spans
@@ -143,7 +154,7 @@ struct Chosen {
     left_out: Vec<ContactModel>,
 }
 
-fn choose(arguments: &CompareArguments, loaded: &Loaded) -> Result<Chosen, Failure> {
+fn choose<D: SceneDim>(arguments: &CompareArguments, loaded: &Loaded<D>) -> Result<Chosen, Failure> {
     refuse_twice("--contact", &arguments.contact, |model| model.word().to_owned())?;
     refuse_twice("--dt", &arguments.dt, f64::to_string)?;
     let scene = &loaded.scene;
@@ -172,7 +183,7 @@ fn refuse_twice<T: PartialEq>(flag: &str, values: &[T], word: impl Fn(&T) -> Str
 }
 
 /// The channel of the plot, checked; the total energy if none was asked for.
-fn channel(arguments: &CompareArguments, prepared: &mut [Prepared]) -> Result<Channel, Failure> {
+fn channel<D: SceneDim>(arguments: &CompareArguments, prepared: &mut [Prepared<D>]) -> Result<Channel, Failure> {
     let channel = arguments.plot.clone().map_or_else(|| "total".parse(), Ok)?;
     if let Some(recording) = prepared.first_mut().and_then(Prepared::recording) {
         channel.check(recording)?;
@@ -186,7 +197,7 @@ fn channel(arguments: &CompareArguments, prepared: &mut [Prepared]) -> Result<Ch
 }
 
 /// A run that nobody interrupted.
-fn finished(run: Run) -> Result<Run, Failure> {
+fn finished<D: SceneDim>(run: Run<D>) -> Result<Run<D>, Failure> {
     match run.ending {
         Ending::Interrupted => Err(Failure::Run("interrupted: nothing was written".to_owned())),
         Ending::Complete | Ending::Failed(_) => Ok(run),
@@ -194,6 +205,6 @@ fn finished(run: Run) -> Result<Run, Failure> {
 }
 
 /// Time of the last sample [s].
-fn end_of(recording: &Recording) -> f64 {
+fn end_of<D: SceneDim>(recording: &Recording<D>) -> f64 {
     recording.samples.last().map_or(0.0, |sample| sample.time)
 }

@@ -1,7 +1,8 @@
 //! A fine run, and how far another is from it.
 
-use glam::DVec2;
+use tumble_math::Linear;
 use tumble_record::{BodyKind, BodyState, Recording, Sample};
+use tumble_scene::{Loaded, SceneDim};
 use tumble_sim::StepError;
 
 use super::figures::worse;
@@ -12,19 +13,19 @@ use crate::simulate::{Ending, Prepared, Progress};
 use crate::source::Source;
 
 /// A run with small steps.
-pub struct Reference {
-    recording: Recording,
+pub struct Reference<D: SceneDim> {
+    recording: Recording<D>,
 }
 
-impl Reference {
+impl<D: SceneDim> Reference<D> {
     /// Builds the scene with small steps; it is sampled as often as the finest of the other runs.
-    pub fn prepare(case: &Case, source: &Source) -> Result<Prepared, Failure> {
+    pub fn prepare(case: &Case, source: &Source, loaded: &Loaded<D>) -> Result<Prepared<D>, Failure> {
         let overrides = Overrides { contact: Some(case.contact), dt: Some(case.dt), duration: None };
-        Prepared::sampled(source, source.load()?, &overrides, Some(REFERENCE_STEPS), |_| Vec::new())
+        Prepared::sampled(source, loaded.clone(), &overrides, Some(REFERENCE_STEPS), |_| Vec::new())
     }
 
     /// Takes the reference run, which may fail like any other.
-    pub fn run(mut prepared: Prepared) -> Result<Result<Self, StepError>, Failure> {
+    pub fn run(mut prepared: Prepared<D>) -> Result<Result<Self, StepError>, Failure> {
         let run = finished(prepared.run(Progress::Shown))?;
         Ok(match run.ending {
             Ending::Failed(error) => Err(error),
@@ -33,7 +34,7 @@ impl Reference {
     }
 
     /// Largest distance of a dynamic body of another run of the same scene from where it is here [m].
-    pub fn distance_to(&self, other: &Recording) -> Option<f64> {
+    pub fn distance_to(&self, other: &Recording<D>) -> Option<f64> {
         let dynamic = (0..other.bodies.len()).filter(|&body| other.bodies[body].kind == BodyKind::Dynamic);
         let dynamic: Vec<usize> = dynamic.collect();
         let distances = other.samples.iter().flat_map(|sample| {
@@ -46,7 +47,7 @@ impl Reference {
     }
 
     /// Where a body is at a time: that of a sample, or by the cubic through places and velocities of the samples around it [m].
-    fn position(&self, body: usize, time: f64) -> Option<DVec2> {
+    fn position(&self, body: usize, time: f64) -> Option<D::Vector> {
         let samples = &self.recording.samples;
         // The same time may be a different product of a number of steps and a step.
         let tolerance = 1e-6 * self.recording.dt;
@@ -62,7 +63,13 @@ impl Reference {
 }
 
 /// The cubic with the places and velocities of two samples, at a time between them [m].
-fn hermite(before: &Sample, start: &BodyState, after: &Sample, end: &BodyState, time: f64) -> DVec2 {
+fn hermite<D: SceneDim>(
+    before: &Sample<D>,
+    start: &BodyState<D>,
+    after: &Sample<D>,
+    end: &BodyState<D>,
+    time: f64,
+) -> D::Vector {
     let span = after.time - before.time;
     let s = (time - before.time) / span;
     let (from, to) = (start.position, end.position);
@@ -74,6 +81,9 @@ fn hermite(before: &Sample, start: &BodyState, after: &Sample, end: &BodyState, 
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
+    use tumble_math::Planar;
+
     use super::*;
 
     #[test]
@@ -84,7 +94,7 @@ mod tests {
             velocity: DVec2::new(2.0, 3.0 - 10.0 * time),
             ..BodyState::default()
         };
-        let sample = |time: f64| Sample { time, ..Sample::default() };
+        let sample = |time: f64| Sample::<Planar> { time, ..Sample::default() };
         for time in [0.2, 0.35, 0.6] {
             let found = hermite(&sample(0.2), &at(0.2), &sample(0.6), &at(0.6), time);
             // Rounding of numbers near 1.

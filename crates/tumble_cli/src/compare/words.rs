@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use tumble_scene::format::{ContactModel, Expectation, Scene};
+use tumble_scene::format::{ContactModel, Dialect, Expectation, Scene};
 
 use super::figures::Row;
 use crate::figure::{Column, rough, table as aligned};
@@ -55,7 +55,7 @@ pub enum Promises {
 
 impl Promises {
     /// What a scene says about energy.
-    pub fn of(scene: &Scene) -> Self {
+    pub fn of<D: Dialect>(scene: &Scene<D>) -> Self {
         let keeps = scene.expect.iter().any(|expectation| matches!(expectation, Expectation::EnergyKept(_)));
         if keeps { Self::KeptEnergy } else { Self::Other }
     }

@@ -3,9 +3,10 @@
 use tumble_record::{Touch, TouchPhase};
 
 use super::{Expected, Finding, Measured, NotMeasured, Run};
+use crate::dim::SceneDim;
 use crate::format::{Event, HappensExpectation};
 
-impl Run<'_> {
+impl<D: SceneDim> Run<'_, D> {
     /// First occurrences that come one after the other.
     pub(super) fn order(&self, events: &[Event]) -> Result<Finding, NotMeasured> {
         let times: Result<Vec<Option<f64>>, NotMeasured> =

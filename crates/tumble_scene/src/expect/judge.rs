@@ -34,7 +34,7 @@ impl Outcome {
     pub fn error(&self) -> Option<f64> {
         match (self.expected.as_ref()?, self.measured.as_ref()?) {
             (Expected::Number { near: Some(near), .. }, Measured::Number(number)) => Some((number - near.is).abs()),
-            (Expected::Vector { is, .. }, Measured::Vector(vector)) => Some((*vector - *is).length()),
+            (Expected::Vector { is, .. }, Measured::Vector(vector)) => Some(vector.distance(is)),
             (Expected::Rest { .. }, Measured::Rest { drift, .. }) => Some(*drift),
             _ => None,
         }
@@ -49,9 +49,7 @@ impl Outcome {
                 Some(part((number - near.is).abs(), near.within))
             }
             (Expected::AtMost(bound), Measured::Number(number)) => Some(part(number.max(0.0), *bound)),
-            (Expected::Vector { is, within }, Measured::Vector(vector)) => {
-                Some(part((*vector - *is).length(), *within))
-            }
+            (Expected::Vector { is, within }, Measured::Vector(vector)) => Some(part(vector.distance(is), *within)),
             (Expected::Rest { speed_below, turn_below, drift_below }, Measured::Rest { speed, turn, drift }) => {
                 let drift = drift_below.map_or(0.0, |below| part(*drift, below));
                 Some(part(*speed, *speed_below).max(part(*turn, *turn_below)).max(drift))
@@ -80,8 +78,8 @@ impl Judgement {
                 all(claims.into_iter().flatten())
             }
             (&Expected::AtMost(bound), &Measured::Number(number)) => Judgement::new(number <= bound, number - bound),
-            (&Expected::Vector { is, within }, &Measured::Vector(vector)) => {
-                let distance = (vector - is).length();
+            (Expected::Vector { is, within }, Measured::Vector(vector)) => {
+                let (distance, within) = (vector.distance(is), *within);
                 Judgement::new(distance <= within, distance - within)
             }
             (&Expected::Rest { speed_below, turn_below, drift_below }, &Measured::Rest { speed, turn, drift }) => {

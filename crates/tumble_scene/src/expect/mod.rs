@@ -4,7 +4,7 @@
 //! expected, and when. The rules:
 //!
 //! - **At a time**: the step nearest to the time decides; its own time is reported. Where that step was not sampled, the state
-//!   (position, angle, velocity, rate of turn) is interpolated linearly between the samples around it, and a force is that of the nearest
+//!   (position, orientation, velocity, rate of turn) is interpolated linearly between the samples around it, and a force is that of the nearest
 //!   sample. At the start no step has acted yet, so the force of the first step stands for it.
 //! - **Throughout a window**, ends included: the worst sample decides, and its time is reported. A window without samples has failed.
 //!   Forces are averaged over the window as vectors, and a magnitude is that of the average.
@@ -33,16 +33,22 @@ mod tests;
 
 use std::collections::BTreeMap;
 
+use tumble_math::{Linear, Vector};
 use tumble_record::{BodyState, Recording};
 
+use crate::dim::{AngularClaim, SceneDim};
 use crate::format::{ContactModel, Expectation, ScalarExpectation, Scene};
 use timeline::Timeline;
 
-pub use verdict::{Expected, Measured, Near, NotMeasured, Outcome, Status, Verdict};
+pub use verdict::{Expected, Measured, Near, NotMeasured, Outcome, Status, Verdict, WorldVector};
 pub use watched::watched_steps;
 
 /// Compares every expectation of a scene with what was recorded under a contact model.
-pub fn evaluate(scene: &Scene, model: ContactModel, recording: &Recording) -> Verdict {
+pub fn evaluate<D: SceneDim>(scene: &Scene<D>, model: ContactModel, recording: &Recording<D>) -> Verdict {
+    (D::scene_engine().evaluate)(scene, model, recording)
+}
+
+pub(crate) fn verdict_of<D: SceneDim>(scene: &Scene<D>, model: ContactModel, recording: &Recording<D>) -> Verdict {
     let run = Run::new(scene, recording);
     let outcomes = scene.expect.iter().enumerate().map(|(index, expectation)| {
         let (because, _) = expectation.because_and_under();
@@ -73,16 +79,24 @@ pub fn evaluate(scene: &Scene, model: ContactModel, recording: &Recording) -> Ve
 }
 
 /// What an expectation expects, as far as that does not depend on the run.
-fn expected(expectation: &Expectation) -> Option<Expected> {
+fn expected<D: SceneDim>(expectation: &Expectation<D>) -> Option<Expected> {
     Some(match expectation {
         Expectation::Position(e) | Expectation::Velocity(e) => e.into(),
         Expectation::X(e)
         | Expectation::Y(e)
+        | Expectation::Z(e)
         | Expectation::VelocityX(e)
         | Expectation::VelocityY(e)
+        | Expectation::VelocityZ(e)
         | Expectation::Speed(e)
-        | Expectation::AngularVelocity(e) => e.into(),
+        | Expectation::TurnRate(e) => e.into(),
+        Expectation::AngularVelocity(e) => match D::angular_claim(e) {
+            AngularClaim::Scalar(e) => e.into(),
+            AngularClaim::Vector(e) => e.into(),
+        },
         Expectation::Angle(e) => e.into(),
+        Expectation::Orientation(e) => Expected::near(0.0, e.within_degrees),
+        Expectation::Tilt(e) => e.into(),
         Expectation::AtRest(e) => e.into(),
         Expectation::EnergyNeverRises(e) => Expected::AtMost(e.slack),
         Expectation::EnergyKept(_) | Expectation::MomentumKept(_) | Expectation::AngularMomentumKept(_) => return None,
@@ -97,10 +111,15 @@ fn expected(expectation: &Expectation) -> Option<Expected> {
     })
 }
 
+/// A component of a vector, which is not a number where the dimension has none.
+fn component<V: Vector>(vector: V, axis: usize) -> f64 {
+    if axis < V::AXES { vector[axis] } else { f64::NAN }
+}
+
 /// A scene and what was recorded of it.
-struct Run<'r> {
-    scene: &'r Scene,
-    timeline: Timeline<'r>,
+struct Run<'r, D: SceneDim> {
+    scene: &'r Scene<D>,
+    timeline: Timeline<'r, D>,
     /// Index of each recorded body by its name.
     index_of: BTreeMap<&'r str, usize>,
 }
@@ -133,8 +152,8 @@ impl Outcome {
     }
 }
 
-impl<'r> Run<'r> {
-    fn new(scene: &'r Scene, recording: &'r Recording) -> Self {
+impl<'r, D: SceneDim> Run<'r, D> {
+    fn new(scene: &'r Scene<D>, recording: &'r Recording<D>) -> Self {
         let mut index_of = BTreeMap::new();
         for (index, name) in recording.body_names().enumerate() {
             index_of.entry(name).or_insert(index);
@@ -142,23 +161,35 @@ impl<'r> Run<'r> {
         Self { scene, timeline: Timeline::new(recording, scene.duration), index_of }
     }
 
-    fn measure(&self, expectation: &Expectation) -> Result<NamedFinding, NotMeasured> {
+    fn measure(&self, expectation: &Expectation<D>) -> Result<NamedFinding, NotMeasured> {
         let when = expectation.when();
-        let number = |e: &ScalarExpectation, quantity: fn(&BodyState) -> f64| {
+        let number = |e: &ScalarExpectation, quantity: fn(&BodyState<D>) -> f64| {
             self.state(&e.of, when, e.into(), |state| Measured::Number(quantity(state)))
         };
         let finding = match expectation {
-            Expectation::Position(e) => self.state(&e.of, when, e.into(), |state| Measured::Vector(state.position)),
-            Expectation::X(e) => number(e, |state| state.position.x),
-            Expectation::Y(e) => number(e, |state| state.position.y),
+            Expectation::Position(e) => self.state(&e.of, when, e.into(), |state| Measured::of_vector(state.position)),
+            Expectation::X(e) => number(e, |state| state.position[0]),
+            Expectation::Y(e) => number(e, |state| state.position[1]),
+            Expectation::Z(e) => number(e, |state| component(state.position, 2)),
             Expectation::Angle(e) => {
-                self.state(&e.of, when, e.into(), |state| Measured::Number(state.angle().to_degrees()))
+                let degrees = |state: &BodyState<D>| D::angle(&state.orientation).unwrap_or(f64::NAN).to_degrees();
+                self.state(&e.of, when, e.into(), |state| Measured::Number(degrees(state)))
             }
-            Expectation::Velocity(e) => self.state(&e.of, when, e.into(), |state| Measured::Vector(state.velocity)),
-            Expectation::VelocityX(e) => number(e, |state| state.velocity.x),
-            Expectation::VelocityY(e) => number(e, |state| state.velocity.y),
+            Expectation::Orientation(e) => self.orientation(e, when),
+            Expectation::Tilt(e) => self.tilt(e, when),
+            Expectation::Velocity(e) => self.state(&e.of, when, e.into(), |state| Measured::of_vector(state.velocity)),
+            Expectation::VelocityX(e) => number(e, |state| state.velocity[0]),
+            Expectation::VelocityY(e) => number(e, |state| state.velocity[1]),
+            Expectation::VelocityZ(e) => number(e, |state| component(state.velocity, 2)),
             Expectation::Speed(e) => number(e, |state| state.velocity.length()),
-            Expectation::AngularVelocity(e) => number(e, |state| state.angular_velocity),
+            Expectation::TurnRate(e) => number(e, |state| state.angular_velocity.length()),
+            Expectation::AngularVelocity(e) => {
+                let (of, claimed) = match D::angular_claim(e) {
+                    AngularClaim::Scalar(e) => (&e.of, e.into()),
+                    AngularClaim::Vector(e) => (&e.of, e.into()),
+                };
+                self.state(of, when, claimed, |state| D::measured(state.angular_velocity))
+            }
             Expectation::AtRest(e) => self.at_rest(e),
             Expectation::EnergyNeverRises(e) => self.energy_never_rises(e.slack),
             Expectation::EnergyKept(e) => self.energy_kept(e.within),

@@ -2,11 +2,9 @@
 
 use std::fmt;
 
-use glam::DVec2;
-
 use super::judge::Judgement;
-use super::{Expected, Measured, Near, Outcome, Status, Verdict};
-use crate::format::{Event, Expectation, JointForcePart, When};
+use super::{Expected, Measured, Near, Outcome, Status, Verdict, WorldVector};
+use crate::format::{Dialect, Event, Expectation, JointForcePart, When};
 
 /// Parts of a tolerance that printed digits show [1].
 const TOLERANCE_PARTS: f64 = 100.0;
@@ -18,18 +16,27 @@ const LIMIT_PARTS: f64 = 10.0;
 const TIME_RESOLUTION: f64 = 1e-5;
 
 /// What is expected of whom and when: `Speed of "box" at 2 s`.
-pub(super) fn title(expectation: &Expectation) -> String {
+pub(super) fn title<D: Dialect>(expectation: &Expectation<D>) -> String {
     let name = expectation.name();
     let moment = moment(expectation.when());
     match expectation {
-        Expectation::Position(e) | Expectation::Velocity(e) => format!("{name} of \"{}\" {moment}", e.of),
-        Expectation::X(e)
-        | Expectation::Y(e)
-        | Expectation::VelocityX(e)
-        | Expectation::VelocityY(e)
-        | Expectation::Speed(e)
-        | Expectation::AngularVelocity(e) => format!("{name} of \"{}\" {moment}", e.of),
-        Expectation::Angle(e) => format!("{name} of \"{}\" {moment}", e.of),
+        Expectation::Position(_)
+        | Expectation::Velocity(_)
+        | Expectation::X(_)
+        | Expectation::Y(_)
+        | Expectation::Z(_)
+        | Expectation::VelocityX(_)
+        | Expectation::VelocityY(_)
+        | Expectation::VelocityZ(_)
+        | Expectation::Speed(_)
+        | Expectation::TurnRate(_)
+        | Expectation::AngularVelocity(_)
+        | Expectation::Angle(_)
+        | Expectation::Orientation(_)
+        | Expectation::Tilt(_) => {
+            let of = expectation.claim().bodies().concat();
+            format!("{name} of \"{of}\" {moment}")
+        }
         Expectation::AtRest(e) => match &e.of {
             Some(of) => format!("{name} of \"{of}\" {moment}"),
             None => format!("{name} of every dynamic body {moment}"),
@@ -54,14 +61,20 @@ pub(super) fn title(expectation: &Expectation) -> String {
 }
 
 /// The unit of what an expectation measures; empty where it has none or several.
-pub(super) fn unit(expectation: &Expectation) -> &'static str {
+pub(super) fn unit<D: Dialect>(expectation: &Expectation<D>) -> &'static str {
     match expectation {
-        Expectation::Position(_) | Expectation::X(_) | Expectation::Y(_) | Expectation::Depth(_) => "m",
-        Expectation::Angle(_) => "degrees",
-        Expectation::Velocity(_) | Expectation::VelocityX(_) | Expectation::VelocityY(_) | Expectation::Speed(_) => {
-            "m/s"
-        }
-        Expectation::AngularVelocity(_) => "rad/s",
+        Expectation::Position(_)
+        | Expectation::X(_)
+        | Expectation::Y(_)
+        | Expectation::Z(_)
+        | Expectation::Depth(_) => "m",
+        Expectation::Angle(_) | Expectation::Orientation(_) | Expectation::Tilt(_) => "degrees",
+        Expectation::Velocity(_)
+        | Expectation::VelocityX(_)
+        | Expectation::VelocityY(_)
+        | Expectation::VelocityZ(_)
+        | Expectation::Speed(_) => "m/s",
+        Expectation::AngularVelocity(_) | Expectation::TurnRate(_) => "rad/s",
         Expectation::EnergyNeverRises(_) | Expectation::EnergyKept(_) => "J",
         Expectation::MomentumKept(_) => "kg·m/s",
         Expectation::AngularMomentumKept(_) => "kg·m²/s",
@@ -92,6 +105,7 @@ fn part(part: JointForcePart) -> &'static str {
         JointForcePart::Magnitude => "",
         JointForcePart::X => " along x",
         JointForcePart::Y => " along y",
+        JointForcePart::Z => " along z",
         JointForcePart::Torque => " (torque)",
     }
 }
@@ -171,7 +185,7 @@ impl Outcome {
 fn measured_text(measured: &Measured, unit: &str, resolution: f64) -> String {
     match measured {
         Measured::Number(value) => format!("{} {unit}", number(*value, resolution)),
-        Measured::Vector(value) => format!("{} {unit}", vector(*value, resolution)),
+        Measured::Vector(value) => format!("{} {unit}", vector(value, resolution)),
         Measured::Rest { speed, turn, drift } => {
             let [speed, turn, drift] = [speed, turn, drift].map(|value| number(*value, f64::INFINITY));
             format!("{speed} m/s, {turn} rad/s, drift {drift} m")
@@ -196,7 +210,7 @@ fn expected_text(expected: &Expected) -> String {
         }
         Expected::AtMost(bound) => format!("at most {}", as_written(*bound)),
         Expected::Vector { is, within } => {
-            format!("{} ± {}", vector(*is, within / TOLERANCE_PARTS), as_written(*within))
+            format!("{} ± {}", vector(is, within / TOLERANCE_PARTS), as_written(*within))
         }
         Expected::Rest { speed_below, turn_below, drift_below } => {
             let [speed, turn] = [*speed_below, *turn_below].map(as_written);
@@ -209,8 +223,9 @@ fn expected_text(expected: &Expected) -> String {
     }
 }
 
-fn vector(value: DVec2, resolution: f64) -> String {
-    format!("({}, {})", number(value.x, resolution), number(value.y, resolution))
+fn vector(value: &WorldVector, resolution: f64) -> String {
+    let components: Vec<String> = value.components().iter().map(|value| number(*value, resolution)).collect();
+    format!("({})", components.join(", "))
 }
 
 /// A time.

@@ -3,27 +3,28 @@
 use tumble_record::{AuditRow, BodyState, Recording, Sample};
 
 use super::{Finding, NotMeasured};
+use crate::dim::SceneDim;
 use crate::format::When;
 
 /// Part of a step by which a time may miss a step through rounding of decimals and products [1].
 const ROUND_OFF: f64 = 1e-6;
 
 /// A recording and how long it should be.
-pub(super) struct Timeline<'r> {
-    pub recording: &'r Recording,
+pub(super) struct Timeline<'r, D: SceneDim> {
+    pub recording: &'r Recording<D>,
     /// The step with which the run should end.
     last_step: u64,
 }
 
 /// A body's state, at the time of a step.
-pub(super) struct StateAt {
-    pub state: BodyState,
+pub(super) struct StateAt<D: SceneDim> {
+    pub state: BodyState<D>,
     /// Time of the step [s].
     pub time: f64,
 }
 
-impl<'r> Timeline<'r> {
-    pub fn new(recording: &'r Recording, duration: f64) -> Self {
+impl<'r, D: SceneDim> Timeline<'r, D> {
+    pub fn new(recording: &'r Recording<D>, duration: f64) -> Self {
         let mut timeline = Self { recording, last_step: 0 };
         timeline.last_step = timeline.nearest_step(duration);
         timeline
@@ -35,13 +36,13 @@ impl<'r> Timeline<'r> {
     }
 
     /// Refuses what needs steps that were not recorded.
-    fn reach(&self, step: u64) -> Result<&'r Sample, NotMeasured> {
+    fn reach(&self, step: u64) -> Result<&'r Sample<D>, NotMeasured> {
         let last = self.recording.samples.last().ok_or(NotMeasured::NothingRecorded)?;
         if last.step < step { Err(NotMeasured::NotReached { end: last.time }) } else { Ok(last) }
     }
 
     /// The last sample, unless the run stopped early.
-    pub fn end(&self) -> Result<&'r Sample, NotMeasured> {
+    pub fn end(&self) -> Result<&'r Sample<D>, NotMeasured> {
         self.reach(self.last_step)
     }
 
@@ -76,12 +77,12 @@ impl<'r> Timeline<'r> {
     }
 
     /// The samples of a window.
-    pub fn samples(&self, when: When) -> impl Iterator<Item = &'r Sample> {
+    pub fn samples(&self, when: When) -> impl Iterator<Item = &'r Sample<D>> {
         self.recording.samples.iter().filter(move |sample| self.contains(when, sample.time))
     }
 
     /// State of a body at the step nearest to a time, interpolated between samples if that step was not sampled.
-    pub fn state_at(&self, body: usize, time: f64) -> Result<StateAt, NotMeasured> {
+    pub fn state_at(&self, body: usize, time: f64) -> Result<StateAt<D>, NotMeasured> {
         let step = self.nearest_step(time);
         self.reach(step)?;
         let samples = &self.recording.samples;
@@ -98,7 +99,7 @@ impl<'r> Timeline<'r> {
     }
 
     /// State of a body in a sample.
-    pub fn state(&self, sample: &'r Sample, body: usize) -> Result<&'r BodyState, NotMeasured> {
+    pub fn state(&self, sample: &'r Sample<D>, body: usize) -> Result<&'r BodyState<D>, NotMeasured> {
         sample.state(body).ok_or_else(|| {
             let body = self.recording.bodies[body].name.clone();
             NotMeasured::BodyAbsent { body, time: sample.time }
@@ -106,7 +107,7 @@ impl<'r> Timeline<'r> {
     }
 
     /// The sample nearest to a time among those after at least one step, the earlier of two.
-    pub fn sample_after_a_step_near(&self, time: f64) -> Result<&'r Sample, NotMeasured> {
+    pub fn sample_after_a_step_near(&self, time: f64) -> Result<&'r Sample<D>, NotMeasured> {
         let step = self.nearest_step(time);
         self.reach(step)?;
         let moved = self.recording.samples.iter().filter(|sample| sample.step > 0);
@@ -114,19 +115,19 @@ impl<'r> Timeline<'r> {
     }
 
     /// The audit rows; refused if they do not go as far as the samples.
-    pub fn audits(&self) -> Result<&'r [AuditRow], NotMeasured> {
+    pub fn audits(&self) -> Result<&'r [AuditRow<D>], NotMeasured> {
         let end = self.recording.samples.last().ok_or(NotMeasured::NothingRecorded)?;
         let rows = &self.recording.audit;
         if rows.last().is_some_and(|row| row.step >= end.step) { Ok(rows) } else { Err(NotMeasured::NoAudit) }
     }
 
     /// The first audit row.
-    pub fn audit_of_start(&self) -> Result<&'r AuditRow, NotMeasured> {
+    pub fn audit_of_start(&self) -> Result<&'r AuditRow<D>, NotMeasured> {
         self.audits()?.first().ok_or(NotMeasured::NoAudit)
     }
 
     /// The audit row of the step nearest to a time.
-    pub fn audit_at(&self, time: f64) -> Result<&'r AuditRow, NotMeasured> {
+    pub fn audit_at(&self, time: f64) -> Result<&'r AuditRow<D>, NotMeasured> {
         let step = self.nearest_step(time);
         self.reach(step)?;
         let rows = self.audits()?;
@@ -136,12 +137,11 @@ impl<'r> Timeline<'r> {
 }
 
 /// The state at a share of the way from one to another.
-fn interpolate(from: &BodyState, to: &BodyState, share: f64) -> BodyState {
-    let number = |from: f64, to: f64| from + share * (to - from);
+fn interpolate<D: SceneDim>(from: &BodyState<D>, to: &BodyState<D>, share: f64) -> BodyState<D> {
     BodyState {
         position: from.position + (to.position - from.position) * share,
-        orientation: number(from.orientation, to.orientation),
+        orientation: D::orientation_between(&from.orientation, &to.orientation, share),
         velocity: from.velocity + (to.velocity - from.velocity) * share,
-        angular_velocity: number(from.angular_velocity, to.angular_velocity),
+        angular_velocity: from.angular_velocity + (to.angular_velocity - from.angular_velocity) * share,
     }
 }

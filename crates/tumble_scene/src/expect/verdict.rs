@@ -1,11 +1,12 @@
 //! What came of each expectation.
 
-use glam::DVec2;
+use tumble_math::Vector;
 use tumble_record::Fingerprint;
 
 use super::print::seconds;
 use crate::format::{
-    AngleExpectation, AtRestExpectation, DepthExpectation, JointForceExpectation, ScalarExpectation, VectorExpectation,
+    AngleExpectation, AtRestExpectation, DepthExpectation, Dialect, JointForceExpectation, ScalarExpectation,
+    TiltExpectation, VectorExpectation,
 };
 
 /// What came of all expectations of a scene, in their order; its `Display` is one line for each.
@@ -74,7 +75,7 @@ pub enum Measured {
     /// A number.
     Number(f64),
     /// A vector, world axes.
-    Vector(DVec2),
+    Vector(WorldVector),
     /// How a body moved at one time.
     Rest {
         /// Speed of its centre of mass [m/s].
@@ -91,6 +92,11 @@ pub enum Measured {
 }
 
 impl Measured {
+    /// A vector of either dimension.
+    pub(crate) fn of_vector<V: Vector>(vector: V) -> Self {
+        Self::Vector(WorldVector::new(vector))
+    }
+
     /// The number, if it is one.
     pub fn number(&self) -> Option<f64> {
         match self {
@@ -100,11 +106,39 @@ impl Measured {
     }
 
     /// The vector, if it is one.
-    pub fn vector(&self) -> Option<DVec2> {
+    pub fn vector(&self) -> Option<WorldVector> {
         match self {
             Self::Vector(vector) => Some(*vector),
             _ => None,
         }
+    }
+}
+
+/// A vector of the plane or of space, world axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorldVector {
+    components: [f64; 3],
+    axes: usize,
+}
+
+impl WorldVector {
+    pub(super) fn new<V: Vector>(vector: V) -> Self {
+        let mut components = [0.0; 3];
+        for (axis, component) in components.iter_mut().enumerate().take(V::AXES) {
+            *component = vector[axis];
+        }
+        Self { components, axes: V::AXES }
+    }
+
+    /// Two components in the plane, three in space.
+    pub fn components(&self) -> &[f64] {
+        &self.components[..self.axes]
+    }
+
+    /// Euclidean distance to another one.
+    pub fn distance(&self, other: &Self) -> f64 {
+        let square = |(one, other): (&f64, &f64)| (one - other) * (one - other);
+        self.components.iter().zip(&other.components).map(square).sum::<f64>().sqrt()
     }
 }
 
@@ -141,7 +175,7 @@ pub enum Expected {
     /// A vector near a value.
     Vector {
         /// The value.
-        is: DVec2,
+        is: WorldVector,
         /// Largest distance from it.
         within: f64,
     },
@@ -163,6 +197,19 @@ pub enum Expected {
 }
 
 impl Expected {
+    /// A vector near a value.
+    pub(super) fn near_vector<V: Vector>(is: V, within: f64) -> Self {
+        Self::Vector { is: WorldVector::new(is), within }
+    }
+
+    /// The same as was measured.
+    pub(super) fn same(measured: Measured, within: f64) -> Self {
+        match measured {
+            Measured::Vector(is) => Self::Vector { is, within },
+            measured => Self::near(measured.number().unwrap_or(f64::NAN), within),
+        }
+    }
+
     /// A number near a value.
     pub(super) fn near(is: f64, within: f64) -> Self {
         Self::Number { near: Some(Near { is, within }), above: None, below: None }
@@ -177,7 +224,7 @@ impl Expected {
     }
 
     /// The vector, if it is one.
-    pub fn vector(&self) -> Option<DVec2> {
+    pub fn vector(&self) -> Option<WorldVector> {
         match self {
             Self::Vector { is, .. } => Some(*is),
             _ => None,
@@ -194,9 +241,9 @@ impl Expected {
     }
 }
 
-impl From<&VectorExpectation> for Expected {
-    fn from(e: &VectorExpectation) -> Self {
-        Self::Vector { is: e.is, within: e.within }
+impl<D: Dialect> From<&VectorExpectation<D>> for Expected {
+    fn from(e: &VectorExpectation<D>) -> Self {
+        Self::near_vector(e.is, e.within)
     }
 }
 
@@ -214,6 +261,13 @@ impl From<&JointForceExpectation> for Expected {
 
 impl From<&AngleExpectation> for Expected {
     fn from(e: &AngleExpectation) -> Self {
+        let near = Near::of(e.is_degrees, e.within_degrees);
+        Self::Number { near, above: e.above_degrees, below: e.below_degrees }
+    }
+}
+
+impl From<&TiltExpectation> for Expected {
+    fn from(e: &TiltExpectation) -> Self {
         let near = Near::of(e.is_degrees, e.within_degrees);
         Self::Number { near, above: e.above_degrees, below: e.below_degrees }
     }

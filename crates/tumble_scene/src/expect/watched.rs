@@ -2,12 +2,12 @@
 
 use std::ops::RangeInclusive;
 
-use crate::format::{ContactModel, Expectation, Scene, When};
+use crate::format::{ContactModel, Dialect, Expectation, Scene, When};
 
 /// Spans of steps whose samples decide about the expectations that are claimed for a contact model, in no order.
 ///
 /// With these sampled the verdict is that of a recording with every step. Energy, momentum, overlap and events need no samples.
-pub fn watched_steps(scene: &Scene, model: ContactModel) -> Vec<RangeInclusive<u64>> {
+pub fn watched_steps<D: Dialect>(scene: &Scene<D>, model: ContactModel) -> Vec<RangeInclusive<u64>> {
     let claimed = scene.expect.iter().filter(|expectation| expectation.is_claimed_under(model));
     claimed
         .filter(|expectation| needs_samples(expectation))
@@ -15,17 +15,22 @@ pub fn watched_steps(scene: &Scene, model: ContactModel) -> Vec<RangeInclusive<u
         .collect()
 }
 
-fn needs_samples(expectation: &Expectation) -> bool {
+fn needs_samples<D: Dialect>(expectation: &Expectation<D>) -> bool {
     match expectation {
         Expectation::Position(_)
         | Expectation::X(_)
         | Expectation::Y(_)
+        | Expectation::Z(_)
         | Expectation::Angle(_)
+        | Expectation::Orientation(_)
+        | Expectation::Tilt(_)
         | Expectation::Velocity(_)
         | Expectation::VelocityX(_)
         | Expectation::VelocityY(_)
+        | Expectation::VelocityZ(_)
         | Expectation::Speed(_)
         | Expectation::AngularVelocity(_)
+        | Expectation::TurnRate(_)
         | Expectation::AtRest(_)
         | Expectation::ContactForceSum(_)
         | Expectation::FrictionForce(_)

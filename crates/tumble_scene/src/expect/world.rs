@@ -4,16 +4,14 @@ use tumble_record::AuditRow;
 
 use super::judge::worst;
 use super::{Expected, Finding, Measured, NotMeasured, Run};
+use crate::dim::SceneDim;
 use crate::format::{DepthExpectation, When};
 
-/// From the start to the end.
-const WHOLE_RUN: When = When::Throughout { from: 0.0, until: f64::INFINITY };
-
-impl Run<'_> {
+impl<D: SceneDim> Run<'_, D> {
     /// Largest rise of the total energy above its lowest value so far [J].
     pub(super) fn energy_never_rises(&self, slack: f64) -> Result<Finding, NotMeasured> {
         let mut lowest = self.timeline.audit_of_start()?.total;
-        self.worst_row(WHOLE_RUN, Expected::AtMost(slack), |row| {
+        self.worst_row(When::WHOLE_RUN, Expected::AtMost(slack), |row| {
             // `f64::min` passes over what is not a number; the difference does not.
             lowest = lowest.min(row.total);
             Measured::Number(row.total - lowest)
@@ -23,24 +21,24 @@ impl Run<'_> {
     /// Total energy against that of the start [J].
     pub(super) fn energy_kept(&self, within: f64) -> Result<Finding, NotMeasured> {
         let expected = Expected::near(self.timeline.audit_of_start()?.total, within);
-        self.worst_row(WHOLE_RUN, expected, |row| Measured::Number(row.total))
+        self.worst_row(When::WHOLE_RUN, expected, |row| Measured::Number(row.total))
     }
 
     /// Total momentum against that of the start [kg·m/s].
     pub(super) fn momentum_kept(&self, within: f64) -> Result<Finding, NotMeasured> {
-        let expected = Expected::Vector { is: self.timeline.audit_of_start()?.momentum, within };
-        self.worst_row(WHOLE_RUN, expected, |row| Measured::Vector(row.momentum))
+        let expected = Expected::near_vector(self.timeline.audit_of_start()?.momentum, within);
+        self.worst_row(When::WHOLE_RUN, expected, |row| Measured::of_vector(row.momentum))
     }
 
     /// Angular momentum about the origin against that of the start [kg·m²/s].
     pub(super) fn angular_momentum_kept(&self, within: f64) -> Result<Finding, NotMeasured> {
-        let expected = Expected::near(self.timeline.audit_of_start()?.angular_momentum, within);
-        self.worst_row(WHOLE_RUN, expected, |row| Measured::Number(row.angular_momentum))
+        let expected = Expected::same(D::measured(self.timeline.audit_of_start()?.angular_momentum), within);
+        self.worst_row(When::WHOLE_RUN, expected, |row| D::measured(row.angular_momentum))
     }
 
     /// Deepest overlap of any two bodies [m].
     pub(super) fn depth(&self, e: &DepthExpectation, when: When) -> Result<Finding, NotMeasured> {
-        let measured = |row: &AuditRow| Measured::Number(row.deepest_overlap);
+        let measured = |row: &AuditRow<D>| Measured::Number(row.deepest_overlap);
         match when {
             When::At(time) => {
                 let row = self.timeline.audit_at(time)?;
@@ -55,7 +53,7 @@ impl Run<'_> {
         &self,
         when: When,
         expected: Expected,
-        mut measure: impl FnMut(&AuditRow) -> Measured,
+        mut measure: impl FnMut(&AuditRow<D>) -> Measured,
     ) -> Result<Finding, NotMeasured> {
         let rows = self.timeline.audits()?.iter().filter(|row| self.timeline.contains(when, row.time));
         let findings = rows.map(|row| Finding {

@@ -7,34 +7,41 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::Part;
+use tumble_math::{Linear, Planar};
+
 use super::scene::one;
+use super::{Dialect, OrientationEntry};
 
 /// One body, or with `repeat` a family of equal bodies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BodyEntry {
+#[serde(deny_unknown_fields, bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub struct BodyEntry<D: Dialect = Planar> {
     /// Name of the body, unique in the scene; its rank among all names is the body's id.
     pub name: String,
     /// What moves it. Default Dynamic.
     #[serde(default)]
     pub kind: BodyKind,
-    /// Where the origin of the design frame is in the world [m]. Default (0, 0).
+    /// Where the origin of the design frame is in the world [m]. Default 0.
     #[serde(default)]
-    #[schemars(with = "(f64, f64)")]
-    pub at: DVec2,
-    /// Angle of the design frame, counter-clockwise [degrees]. Default 0.
+    #[schemars(with = "D::VectorText")]
+    pub at: D::Vector,
+    /// Angle of the design frame, counter-clockwise [degrees]; in the plane. Default 0.
     #[serde(default)]
-    pub angle_degrees: f64,
-    /// Velocity of the centre of mass at the start, world axes [m/s]. Default (0, 0).
+    pub angle_degrees: D::InPlane<f64>,
+    /// How the design frame is turned; in space. Default not at all.
     #[serde(default)]
-    #[schemars(with = "(f64, f64)")]
-    pub velocity: DVec2,
-    /// Rate of turn at the start, counter-clockwise [rad/s]. Default 0.
+    pub orientation: D::InSpace<Option<OrientationEntry>>,
+    /// Velocity of the centre of mass at the start, world axes [m/s]. Default 0.
     #[serde(default)]
-    pub angular_velocity: f64,
+    #[schemars(with = "D::VectorText")]
+    pub velocity: D::Vector,
+    /// Rate of turn at the start, counter-clockwise in the plane, world axes in space [rad/s]. Default 0.
+    #[serde(default)]
+    #[schemars(with = "D::AngularText")]
+    pub angular_velocity: D::Angular,
     /// Shapes attached rigidly to each other, in the design frame.
-    pub parts: Vec<Part>,
+    pub parts: Vec<D::Part>,
     /// Material of the parts that name none. Default "default", which is frictionless and does not bounce unless the scene defines it.
     #[serde(default)]
     pub material: Option<String>,
@@ -43,11 +50,11 @@ pub struct BodyEntry {
     pub mass: Option<f64>,
     /// Centre of mass in the design frame instead of that of the parts [m].
     #[serde(default)]
-    #[schemars(with = "Option<(f64, f64)>")]
-    pub centre: Option<DVec2>,
+    #[schemars(with = "Option<D::VectorText>")]
+    pub centre: Option<D::Vector>,
     /// Inertia about the centre of mass instead of that of the parts [kg·m²]; must be positive.
     #[serde(default)]
-    pub inertia: Option<f64>,
+    pub inertia: Option<D::InertiaEntry>,
     /// Share of gravity that acts on the body [1]. Default 1.
     #[serde(default = "one")]
     pub gravity_scale: f64,
@@ -60,9 +67,9 @@ pub struct BodyEntry {
     /// Axes along which the body never moves. Default none.
     #[serde(default)]
     pub locked: Vec<Axis>,
-    /// Poses that a kinematic body passes through, in rising order of time; linear in between, held outside. Default none.
+    /// Poses that a kinematic body of the plane passes through, in rising order of time; linear in between, held outside. Default none.
     #[serde(default)]
-    pub keyframes: Vec<Keyframe>,
+    pub keyframes: D::InPlane<Vec<Keyframe>>,
     /// Names of bodies that this one passes through. The name of a repeated body means all of its copies. Default none.
     #[serde(default)]
     pub ignores: Vec<String>,
@@ -74,7 +81,7 @@ pub struct BodyEntry {
     pub collides_with: Groups,
     /// Makes many bodies of this one. Default none.
     #[serde(default)]
-    pub repeat: Option<Repeat>,
+    pub repeat: Option<Repeat<D>>,
 }
 
 /// What moves a body.
@@ -96,8 +103,15 @@ pub enum Axis {
     X,
     /// Along y.
     Y,
-    /// Turning.
+    /// Along z, in space.
+    Z,
+    /// Turning, about every axis.
     Angle,
+}
+
+impl Axis {
+    /// The axes of translation.
+    pub const ALONG: [Self; 3] = [Self::X, Self::Y, Self::Z];
 }
 
 /// Resistance of the surrounding medium: F = −(linear + quadratic |v|) v, τ = −turning ω.
@@ -131,50 +145,55 @@ pub struct Keyframe {
 
 /// Many bodies from one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub enum Repeat {
-    /// Columns along x and rows along y, named `crate-0-3`: column 0, row 3.
-    Grid(RepeatGrid),
+#[serde(bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub enum Repeat<D: Dialect = Planar> {
+    /// Columns along x and rows along y, named `crate-0-3`: column 0, row 3. In space also along z: `crate-0-3-1`.
+    Grid(RepeatGrid<D>),
     /// A row of bodies, named `crate-7`.
-    Line(RepeatLine),
+    Line(RepeatLine<D>),
 }
 
-/// Columns and rows of copies; the first copy stands where the body was placed.
+/// Columns and rows of copies, in space in layers; the first copy stands where the body was placed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RepeatGrid {
-    /// Number of columns and of rows [1].
-    pub count: (u32, u32),
-    /// Distance between columns, and between rows [m].
-    #[schemars(with = "(f64, f64)")]
-    pub spacing: DVec2,
+#[serde(deny_unknown_fields, bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub struct RepeatGrid<D: Dialect = Planar> {
+    /// Number of columns and of rows, in space of copies along x, y and z [1].
+    pub count: D::Counts,
+    /// Distance between columns, and between rows; in space between neighbours along x, y and z [m].
+    #[schemars(with = "D::VectorText")]
+    pub spacing: D::Vector,
     /// Random displacement of each copy. Default none.
     #[serde(default)]
-    pub jitter: Jitter,
+    pub jitter: Jitter<D>,
 }
 
 /// A row of copies; the first copy stands where the body was placed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RepeatLine {
+#[serde(deny_unknown_fields, bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub struct RepeatLine<D: Dialect = Planar> {
     /// Number of copies [1].
     pub count: u32,
     /// From one copy to the next [m].
-    #[schemars(with = "(f64, f64)")]
-    pub spacing: DVec2,
+    #[schemars(with = "D::VectorText")]
+    pub spacing: D::Vector,
     /// Random displacement of each copy. Default none.
     #[serde(default)]
-    pub jitter: Jitter,
+    pub jitter: Jitter<D>,
 }
 
 /// Random displacement, uniform in ± the given amounts, from the scene's seed and the copy's name alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Jitter {
-    /// Largest displacement along x and y [m]. Default (0, 0).
+#[serde(deny_unknown_fields, bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub struct Jitter<D: Dialect = Planar> {
+    /// Largest displacement along each axis [m]. Default 0.
     #[serde(default)]
-    #[schemars(with = "(f64, f64)")]
-    pub at: DVec2,
-    /// Largest turn [degrees]. Default 0.
+    #[schemars(with = "D::VectorText")]
+    pub at: D::Vector,
+    /// Largest turn, in space the largest component of the rotation vector [degrees]. Default 0.
     #[serde(default)]
     pub angle_degrees: f64,
 }
@@ -261,15 +280,16 @@ impl JsonSchema for Groups {
 }
 
 /// A dynamic body without name and parts, at rest at the origin.
-impl Default for BodyEntry {
+impl<D: Dialect> Default for BodyEntry<D> {
     fn default() -> Self {
         Self {
             name: String::new(),
             kind: BodyKind::default(),
-            at: DVec2::ZERO,
-            angle_degrees: 0.0,
-            velocity: DVec2::ZERO,
-            angular_velocity: 0.0,
+            at: D::Vector::ZERO,
+            angle_degrees: D::InPlane::default(),
+            orientation: D::InSpace::default(),
+            velocity: D::Vector::ZERO,
+            angular_velocity: D::Angular::ZERO,
             parts: Vec::new(),
             material: None,
             mass: None,
@@ -279,7 +299,7 @@ impl Default for BodyEntry {
             drag: Drag::default(),
             pinned: false,
             locked: Vec::new(),
-            keyframes: Vec::new(),
+            keyframes: D::InPlane::default(),
             ignores: Vec::new(),
             groups: Groups::default(),
             collides_with: Groups::default(),

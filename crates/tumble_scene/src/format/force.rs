@@ -1,17 +1,20 @@
 //! Springs and applied forces.
 
-use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tumble_math::Planar;
+
+use super::Dialect;
 
 /// A spring with damping between two points: F = −stiffness (length − rest_length) − damping · rate of length.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SpringEntry {
+#[serde(deny_unknown_fields, bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub struct SpringEntry<D: Dialect = Planar> {
     /// One end.
-    pub from: AnchorEntry,
+    pub from: AnchorEntry<D>,
     /// The other end.
-    pub to: AnchorEntry,
+    pub to: AnchorEntry<D>,
     /// Force per stretch [N/m].
     pub stiffness: f64,
     /// Force per rate of stretch [N·s/m]. Default 0.
@@ -24,13 +27,14 @@ pub struct SpringEntry {
 
 /// Where a spring or a joint holds on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub enum AnchorEntry {
+#[serde(deny_unknown_fields, bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub enum AnchorEntry<D: Dialect = Planar> {
     /// A fixed point of the world.
     World {
         /// Where, world frame [m].
-        #[schemars(with = "(f64, f64)")]
-        point: DVec2,
+        #[schemars(with = "D::VectorText")]
+        point: D::Vector,
     },
     /// A point that moves with a body.
     Body {
@@ -38,28 +42,30 @@ pub enum AnchorEntry {
         name: String,
         /// Where, design frame [m]. Default the centre of mass.
         #[serde(default)]
-        #[schemars(with = "Option<(f64, f64)>")]
-        point: Option<DVec2>,
+        #[schemars(with = "Option<D::VectorText>")]
+        point: Option<D::Vector>,
     },
 }
 
 /// A force and a torque on a body, while `from` ≤ time < `until`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ForceEntry {
+#[serde(deny_unknown_fields, bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub struct ForceEntry<D: Dialect = Planar> {
     /// Name of the body.
     pub on: String,
     /// Where the force acts, design frame [m]. Default the centre of mass.
     #[serde(default)]
-    #[schemars(with = "Option<(f64, f64)>")]
-    pub point: Option<DVec2>,
-    /// Force [N]. Default (0, 0).
+    #[schemars(with = "Option<D::VectorText>")]
+    pub point: Option<D::Vector>,
+    /// Force [N]. Default 0.
     #[serde(default)]
-    #[schemars(with = "(f64, f64)")]
-    pub force: DVec2,
-    /// Torque, besides that of the force, counter-clockwise [N·m]. Default 0.
+    #[schemars(with = "D::VectorText")]
+    pub force: D::Vector,
+    /// Torque, besides that of the force, counter-clockwise in the plane, world axes in space [N·m]. Default 0.
     #[serde(default)]
-    pub torque: f64,
+    #[schemars(with = "D::AngularText")]
+    pub torque: D::Angular,
     /// Axes in which the force is written. Default World.
     #[serde(default)]
     pub axes: Axes,

@@ -1,7 +1,10 @@
-//! Parts: the shapes a body is made of, in its design frame.
+//! Parts of the plane: the shapes a body is made of, in its design frame.
+
+use std::fmt::Debug;
 
 use glam::{DVec2, dvec2};
 use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::Groups;
@@ -183,9 +186,31 @@ fn up() -> DVec2 {
     dvec2(0.0, 1.0)
 }
 
-impl Part {
+/// What the shapes of the plane and of space have in common.
+pub trait PartEntry:
+    Clone + Debug + PartialEq + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static
+{
     /// The material that the part itself names.
-    pub fn material(&self) -> Option<&str> {
+    fn material(&self) -> Option<&str>;
+
+    /// The collision groups that the part itself names, and those it collides with.
+    fn groups(&self) -> (Option<&Groups>, Option<&Groups>);
+
+    /// Whether touching is only reported.
+    fn is_sensor(&self) -> bool;
+
+    /// The density and the mass as written; ground has neither.
+    fn density_and_mass(&self) -> (Option<f64>, Option<f64>);
+
+    /// The name of the list whose parts it stands for.
+    fn list(&self) -> Option<&str>;
+
+    /// What it is called, for one that has no end and no mass, so that forces cannot move it.
+    fn without_mass(&self) -> Option<&'static str>;
+}
+
+impl PartEntry for Part {
+    fn material(&self) -> Option<&str> {
         match self {
             Self::Rod(rod) => rod.material.as_deref(),
             Self::Disc(disc) => disc.material.as_deref(),
@@ -196,8 +221,7 @@ impl Part {
         }
     }
 
-    /// The collision groups that the part itself names, and those it collides with.
-    pub fn groups(&self) -> (Option<&Groups>, Option<&Groups>) {
+    fn groups(&self) -> (Option<&Groups>, Option<&Groups>) {
         match self {
             Self::Rod(rod) => (rod.groups.as_ref(), rod.collides_with.as_ref()),
             Self::Disc(disc) => (disc.groups.as_ref(), disc.collides_with.as_ref()),
@@ -208,8 +232,7 @@ impl Part {
         }
     }
 
-    /// Whether touching is only reported.
-    pub fn is_sensor(&self) -> bool {
+    fn is_sensor(&self) -> bool {
         match self {
             Self::Rod(rod) => rod.sensor,
             Self::Disc(disc) => disc.sensor,
@@ -220,8 +243,7 @@ impl Part {
         }
     }
 
-    /// The density and the mass as written; a half-plane has neither.
-    pub fn density_and_mass(&self) -> (Option<f64>, Option<f64>) {
+    fn density_and_mass(&self) -> (Option<f64>, Option<f64>) {
         match self {
             Self::Rod(rod) => (rod.density, rod.mass),
             Self::Disc(disc) => (disc.density, disc.mass),
@@ -229,5 +251,12 @@ impl Part {
             Self::Box(rectangle) => (rectangle.density, rectangle.mass),
             Self::HalfPlane(_) | Self::List(_) => (None, None),
         }
+    }
+    fn list(&self) -> Option<&str> {
+        if let Self::List(name) = self { Some(name) } else { None }
+    }
+
+    fn without_mass(&self) -> Option<&'static str> {
+        matches!(self, Self::HalfPlane(_)).then_some("a half-plane")
     }
 }

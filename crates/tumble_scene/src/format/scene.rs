@@ -2,21 +2,25 @@
 
 use std::collections::BTreeMap;
 
-use glam::{DVec2, dvec2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tumble_math::{Planar, Vector};
 
 use super::{
-    BodyEntry, ContactModel, Expectation, ForceEntry, JointEntry, MaterialEntry, ModelEntries, PairEntry, Part,
-    SpringEntry, Surface, Take,
+    BodyEntry, ContactModel, Dialect, Dimension, Expectation, ForceEntry, JointEntry, MaterialEntry, ModelEntries,
+    PairEntry, SpringEntry, Surface, Take,
 };
 
-/// A planar scene: what is there, how it is simulated, and what it promises.
+/// A scene of the plane or of space: what is there, how it is simulated, and what it promises.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Scene {
+#[serde(deny_unknown_fields, bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub struct Scene<D: Dialect = Planar> {
     /// Version of this format; 1 is the only one so far.
     pub format: u32,
+    /// Whether the scene is of the plane, with x to the right and y up, or of space, with right-handed axes x, y and z. Default Planar.
+    #[serde(default)]
+    pub dimension: Dimension<D>,
     /// What the scene shows, in a sentence or two. Default empty.
     #[serde(default)]
     pub about: String,
@@ -25,10 +29,10 @@ pub struct Scene {
     pub dt: f64,
     /// Simulated time [s].
     pub duration: f64,
-    /// Acceleration of free fall [m/s²]. Default (0, −9.81).
-    #[serde(default = "default_gravity")]
-    #[schemars(with = "(f64, f64)")]
-    pub gravity: DVec2,
+    /// Acceleration of free fall [m/s²]. Default 9.81 against y: (0, −9.81) in the plane, (0, −9.81, 0) in space.
+    #[serde(default = "default_gravity::<D>")]
+    #[schemars(with = "D::VectorText")]
+    pub gravity: D::Vector,
     /// Typical size of a body [m]; tolerances are multiples of it. Default 1.
     #[serde(default = "one")]
     pub length_scale: f64,
@@ -74,22 +78,22 @@ pub struct Scene {
     pub take: Take,
     /// Lists of parts by name, for bodies that share a shape: `parts: [List("hammer")]`.
     #[serde(default)]
-    pub part_lists: BTreeMap<String, Vec<Part>>,
+    pub part_lists: BTreeMap<String, Vec<D::Part>>,
     /// The bodies. Their order means nothing: ids are the ranks of their names.
     #[serde(default)]
-    pub bodies: Vec<BodyEntry>,
+    pub bodies: Vec<BodyEntry<D>>,
     /// Springs with damping between points of bodies or of the world.
     #[serde(default)]
-    pub springs: Vec<SpringEntry>,
+    pub springs: Vec<SpringEntry<D>>,
     /// Joints between points of bodies or of the world. Bodies held together do not collide with each other. Their order means nothing.
     #[serde(default)]
-    pub joints: Vec<JointEntry>,
+    pub joints: Vec<JointEntry<D>>,
     /// Applied forces and torques.
     #[serde(default)]
-    pub forces: Vec<ForceEntry>,
+    pub forces: Vec<ForceEntry<D>>,
     /// What a run must show, each with a tolerance and a reason.
     #[serde(default)]
-    pub expect: Vec<Expectation>,
+    pub expect: Vec<Expectation<D>>,
 }
 
 /// How velocity and position advance.
@@ -102,7 +106,7 @@ pub enum Integrator {
     Ballistic,
 }
 
-impl Scene {
+impl<D: Dialect> Scene<D> {
     /// The version of the format that this library reads and writes.
     pub const FORMAT: u32 = 1;
 
@@ -115,15 +119,23 @@ impl Scene {
     }
 }
 
-/// An empty scene of one second.
+/// An empty planar scene of one second.
 impl Default for Scene {
     fn default() -> Self {
+        Self::empty()
+    }
+}
+
+impl<D: Dialect> Scene<D> {
+    /// An empty scene of one second.
+    pub fn empty() -> Self {
         Self {
             format: Self::FORMAT,
+            dimension: Dimension::default(),
             about: String::new(),
             dt: default_dt(),
             duration: 1.0,
-            gravity: default_gravity(),
+            gravity: default_gravity::<D>(),
             length_scale: one(),
             slop: None,
             integrator: Integrator::default(),
@@ -152,8 +164,8 @@ fn default_dt() -> f64 {
     0.01
 }
 
-fn default_gravity() -> DVec2 {
-    dvec2(0.0, -9.81)
+fn default_gravity<D: Dialect>() -> D::Vector {
+    D::Vector::unit(1) * -9.81
 }
 
 fn default_every() -> u32 {

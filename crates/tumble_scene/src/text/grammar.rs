@@ -65,12 +65,16 @@ pub(crate) struct Variant {
 impl Grammar {
     /// The grammar of a type.
     pub fn of<T: JsonSchema>() -> Self {
-        let schema = schemars::schema_for!(T).to_value();
+        Self::of_schema(&schemars::schema_for!(T).to_value())
+    }
+
+    /// The grammar of a schema.
+    pub fn of_schema(schema: &Value) -> Self {
         let types = match &schema["$defs"] {
             Value::Object(types) => types.iter().map(|(name, schema)| (name.clone(), Shape::of(schema))).collect(),
             _ => BTreeMap::new(),
         };
-        Self { root: Shape::of(&schema), types }
+        Self { root: Shape::of(schema), types }
     }
 
     /// The shape behind a name.
@@ -91,6 +95,7 @@ impl Grammar {
             Shape::List(_) => "a list `[…]`".into(),
             Shape::Tuple(items) => match (items.len(), items.iter().all(|item| matches!(item, Shape::Number))) {
                 (2, true) => "two numbers `(x, y)`".into(),
+                (3, true) => "three numbers `(x, y, z)`".into(),
                 (count, _) => format!("{count} values in parentheses"),
             },
             Shape::Map(_) => "a map `{\"name\": …}`".into(),

@@ -2,16 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use glam::DVec2;
-use tumble_math::{Bounds, Planar, Pose};
+use tumble_math::{Bounds, Linear, Vector};
 
 use super::{Findings, single_names};
 use crate::diagnostics::Diagnostic;
+use crate::dim::SceneDim;
 use crate::expand::{MOST_BODIES, copies, count};
-use crate::format::{BodyEntry, BodyKind, Groups, Part, Repeat, Scene};
+use crate::format::{BodyEntry, BodyKind, Groups, PartEntry, Repeat, Scene};
 use crate::materials::MaterialLibrary;
 use crate::path::ScenePath;
-use crate::shapes::{body_mass, planar_shape};
+use crate::shapes::body_mass;
 
 /// Group names a scene can tell apart, one bit each.
 const MOST_GROUPS: usize = 32;
@@ -25,7 +25,7 @@ pub(super) struct BodyNames {
 }
 
 impl BodyNames {
-    pub fn of(scene: &Scene) -> Self {
+    pub fn of<D: SceneDim>(scene: &Scene<D>) -> Self {
         let families = scene.bodies.iter().filter(|body| body.repeat.is_some()).map(|body| body.name.clone());
         Self { single: single_names(scene), families: families.collect() }
     }
@@ -53,17 +53,15 @@ impl BodyNames {
     }
 }
 
-pub(super) fn check(scene: &Scene, library: &MaterialLibrary, names: &BodyNames, found: &mut Findings) {
+pub(super) fn check<D: SceneDim>(scene: &Scene<D>, library: &MaterialLibrary, names: &BodyNames, found: &mut Findings) {
     let checker = Checker { scene, library, names };
     for (list, parts) in &scene.part_lists {
         let path = ScenePath::root().field("part_lists").key(list);
         for (index, part) in parts.iter().enumerate() {
             let path = path.index(index);
-            match part {
-                Part::List(_) => {
-                    found.error(&path, "a list of parts cannot contain another list", "write its parts here")
-                }
-                part => checker.part(&path, part, found),
+            match part.list() {
+                Some(_) => found.error(&path, "a list of parts cannot contain another list", "write its parts here"),
+                None => checker.part(&path, part, found),
             }
         }
     }
@@ -75,14 +73,14 @@ pub(super) fn check(scene: &Scene, library: &MaterialLibrary, names: &BodyNames,
     length_scale(scene, found);
 }
 
-struct Checker<'s> {
-    scene: &'s Scene,
+struct Checker<'s, D: SceneDim> {
+    scene: &'s Scene<D>,
     library: &'s MaterialLibrary,
     names: &'s BodyNames,
 }
 
-impl Checker<'_> {
-    fn body(&self, path: &ScenePath, body: &BodyEntry, found: &mut Findings) {
+impl<D: SceneDim> Checker<'_, D> {
+    fn body(&self, path: &ScenePath, body: &BodyEntry<D>, found: &mut Findings) {
         if body.name.is_empty() || body.name.chars().any(char::is_control) {
             found.error(&path.field("name"), "a body needs a name", "empty, or with control characters");
         }
@@ -92,10 +90,14 @@ impl Checker<'_> {
             self.part(&path, part, found);
             self.part_of_body(&path, part, body, found);
         }
-        for (field, what, value) in [("mass", "the mass", body.mass), ("inertia", "the inertia", body.inertia)] {
-            if let Some(value) = value {
-                found.positive(&path.field(field), &format!("{what} of \"{}\"", body.name), value);
-            }
+        if let Some(mass) = body.mass {
+            found.positive(&path.field("mass"), &format!("the mass of \"{}\"", body.name), mass);
+        }
+        if let Some((message, label)) = body.inertia.as_ref().and_then(D::inertia_mistake) {
+            found.error(&path.field("inertia"), format!("the inertia of \"{}\" {message}", body.name), label);
+        }
+        if let Some((field, label)) = D::rotation_mistake(body) {
+            found.error(&path.field(field), format!("the {field} of \"{}\" has no direction", body.name), label);
         }
         found.not_negative(&path.field("drag").field("linear"), "linear drag", body.drag.linear);
         found.not_negative(&path.field("drag").field("quadratic"), "quadratic drag", body.drag.quadratic);
@@ -121,9 +123,9 @@ impl Checker<'_> {
     }
 
     /// Checks a part wherever it stands.
-    fn part(&self, path: &ScenePath, part: &Part, found: &mut Findings) {
+    fn part(&self, path: &ScenePath, part: &D::Part, found: &mut Findings) {
         self.material(&path.field("material"), part.material(), found);
-        if let Err(error) = planar_shape(part) {
+        if let Err(error) = D::shapes(part) {
             found.error(path, "this part has no proper shape", error.to_string());
         }
         let (density, mass) = part.density_and_mass();
@@ -143,9 +145,9 @@ impl Checker<'_> {
     }
 
     /// Checks whether a part suits the body it belongs to.
-    fn part_of_body(&self, path: &ScenePath, part: &Part, body: &BodyEntry, found: &mut Findings) {
+    fn part_of_body(&self, path: &ScenePath, part: &D::Part, body: &BodyEntry<D>, found: &mut Findings) {
         let mut parts = std::slice::from_ref(part);
-        if let Part::List(name) = part {
+        if let Some(name) = part.list() {
             match self.scene.part_lists.get(name) {
                 Some(list) => parts = list,
                 None => {
@@ -154,44 +156,37 @@ impl Checker<'_> {
                 }
             }
         }
-        if body.kind == BodyKind::Dynamic && parts.iter().any(|part| matches!(part, Part::HalfPlane(_))) {
+        if let Some(ground) = parts.iter().find_map(PartEntry::without_mass)
+            && body.kind == BodyKind::Dynamic
+        {
             let message =
-                format!("a half-plane has no end and no mass, so the dynamic body \"{}\" cannot have one", body.name);
+                format!("{ground} has no end and no mass, so the dynamic body \"{}\" cannot have one", body.name);
             found.error(path, message, "write `kind: Static` or `kind: Kinematic` for this body");
         }
     }
 
     /// Checks that a dynamic body has mass and inertia that can be computed with.
-    fn mass(&self, path: &ScenePath, body: &BodyEntry, found: &mut Findings) {
+    fn mass(&self, path: &ScenePath, body: &BodyEntry<D>, found: &mut Findings) {
         let parts = self.scene.flat_parts(body);
         let is_sound = parts.iter().all(|part| {
             let (density, mass) = part.density_and_mass();
-            planar_shape(part).is_ok()
-                && density.is_none_or(|density| density > 0.0)
-                && mass.is_none_or(|mass| mass > 0.0)
+            D::shapes(part).is_ok() && density.is_none_or(|density| density > 0.0) && mass.is_none_or(|mass| mass > 0.0)
         });
-        let overrides_are_sound =
-            body.mass.is_none_or(|mass| mass > 0.0) && body.inertia.is_none_or(|inertia| inertia > 0.0);
-        let refers_well = body.parts.iter().all(|part| match part {
-            Part::List(name) => self.scene.part_lists.contains_key(name),
-            _ => true,
-        });
+        let overrides_are_sound = body.mass.is_none_or(|mass| mass > 0.0)
+            && body.inertia.as_ref().is_none_or(|inertia| D::inertia_mistake(inertia).is_none());
+        let refers_well =
+            body.parts.iter().all(|part| part.list().is_none_or(|name| self.scene.part_lists.contains_key(name)));
         if body.kind != BodyKind::Dynamic || !is_sound || !overrides_are_sound || !refers_well {
             return;
         }
-        let is_half_plane = |part: &Part| matches!(part, Part::HalfPlane(_));
         match body_mass(body, &parts) {
-            Some(total)
-                if total.mass > 0.0 && total.inertia > 0.0 && total.mass.is_finite() && total.inertia.is_finite() => {}
             Some(total) => {
-                let label = format!("mass {} kg, inertia {} kg·m²", total.mass, total.inertia);
-                found.error(
-                    &path.field("name"),
-                    format!("\"{}\" has a mass that cannot be computed with", body.name),
-                    label,
-                );
+                if let Some(label) = D::mass_mistake(&total) {
+                    let message = format!("\"{}\" has a mass that cannot be computed with", body.name);
+                    found.error(&path.field("name"), message, label);
+                }
             }
-            None if parts.iter().any(is_half_plane) => {}
+            None if parts.iter().any(|part| part.without_mass().is_some()) => {}
             None => {
                 let message = format!("the dynamic body \"{}\" has no mass", body.name);
                 found.error(&path.field("parts"), message, "give it parts, or both `mass` and `inertia`");
@@ -200,9 +195,9 @@ impl Checker<'_> {
     }
 }
 
-fn motion(path: &ScenePath, body: &BodyEntry, found: &mut Findings) {
-    let moves = body.velocity != DVec2::ZERO || body.angular_velocity != 0.0;
-    let field = if body.velocity == DVec2::ZERO { "angular_velocity" } else { "velocity" };
+fn motion<D: SceneDim>(path: &ScenePath, body: &BodyEntry<D>, found: &mut Findings) {
+    let moves = body.velocity != D::Vector::ZERO || body.angular_velocity != D::Angular::ZERO;
+    let field = if body.velocity == D::Vector::ZERO { "angular_velocity" } else { "velocity" };
     if body.kind == BodyKind::Static && moves {
         found.error(
             &path.field(field),
@@ -210,7 +205,8 @@ fn motion(path: &ScenePath, body: &BodyEntry, found: &mut Findings) {
             "write `kind: Kinematic` for a body that follows its velocity",
         );
     }
-    if body.keyframes.is_empty() {
+    let keyframes = D::keyframes(body);
+    if keyframes.is_empty() {
         return;
     }
     if body.kind != BodyKind::Kinematic {
@@ -222,7 +218,7 @@ fn motion(path: &ScenePath, body: &BodyEntry, found: &mut Findings) {
     } else if moves {
         found.error(&path.field(field), "a body with keyframes takes its velocity from them", "remove this");
     }
-    for (index, pair) in body.keyframes.windows(2).enumerate() {
+    for (index, pair) in keyframes.windows(2).enumerate() {
         if pair[1].time <= pair[0].time {
             let path = path.field("keyframes").index(index + 1).field("time");
             found.error(
@@ -234,7 +230,7 @@ fn motion(path: &ScenePath, body: &BodyEntry, found: &mut Findings) {
     }
 }
 
-fn repeat(path: &ScenePath, body: &BodyEntry, found: &mut Findings) {
+fn repeat<D: SceneDim>(path: &ScenePath, body: &BodyEntry<D>, found: &mut Findings) {
     let Some(repeat) = &body.repeat else { return };
     let path = path.field("repeat");
     let jitter = match repeat {
@@ -249,12 +245,13 @@ fn repeat(path: &ScenePath, body: &BodyEntry, found: &mut Findings) {
             found.error(&path.field("count"), message, format!("{many} copies; at most {MOST_BODIES} are allowed"));
         }
     }
-    found.not_negative(&path.field("jitter").field("at"), "jitter", jitter.at.min_element());
+    let least = (0..D::Vector::AXES).map(|axis| jitter.at[axis]).fold(f64::INFINITY, f64::min);
+    found.not_negative(&path.field("jitter").field("at"), "jitter", least);
     found.not_negative(&path.field("jitter").field("angle_degrees"), "jitter", jitter.angle_degrees);
 }
 
 /// Reports names that two bodies share, copies of repeated bodies included.
-fn unique_names(scene: &Scene, found: &mut Findings) {
+fn unique_names<D: SceneDim>(scene: &Scene<D>, found: &mut Findings) {
     let mut taken: BTreeMap<String, usize> = BTreeMap::new();
     for (index, body) in scene.bodies.iter().enumerate().filter(|(_, body)| count(body) <= MOST_BODIES) {
         for copy in copies(body) {
@@ -288,7 +285,7 @@ fn unique_names(scene: &Scene, found: &mut Findings) {
 }
 
 /// Reports too many group names, and names beside bits.
-fn groups(scene: &Scene, found: &mut Findings) {
+fn groups<D: SceneDim>(scene: &Scene<D>, found: &mut Findings) {
     let mut names: BTreeSet<&str> = BTreeSet::new();
     let mut by_name: Option<ScenePath> = None;
     let mut by_bits: Option<ScenePath> = None;
@@ -317,7 +314,7 @@ fn groups(scene: &Scene, found: &mut Findings) {
 }
 
 /// Every set of groups in a scene and where it stands.
-fn all_groups(scene: &Scene) -> Vec<(ScenePath, &Groups)> {
+fn all_groups<D: SceneDim>(scene: &Scene<D>) -> Vec<(ScenePath, &Groups)> {
     let mut all = Vec::new();
     for (index, body) in scene.bodies.iter().enumerate() {
         let path = ScenePath::root().field("bodies").index(index);
@@ -336,14 +333,14 @@ fn all_groups(scene: &Scene) -> Vec<(ScenePath, &Groups)> {
     all
 }
 
-fn groups_of_part<'p>(path: &ScenePath, part: &'p Part) -> impl Iterator<Item = (ScenePath, &'p Groups)> {
+fn groups_of_part<'p>(path: &ScenePath, part: &'p impl PartEntry) -> impl Iterator<Item = (ScenePath, &'p Groups)> {
     let (groups, collides_with) = part.groups();
     let (in_groups, with_groups) = (path.field("groups"), path.field("collides_with"));
     [(in_groups, groups), (with_groups, collides_with)].into_iter().filter_map(|(path, groups)| Some((path, groups?)))
 }
 
 /// Warns if bodies are so small or large that the tolerances do not suit them.
-fn length_scale(scene: &Scene, found: &mut Findings) {
+fn length_scale<D: SceneDim>(scene: &Scene<D>, found: &mut Findings) {
     /// A body smaller than this many length scales is as small as ten slops.
     const SMALL: f64 = 0.05;
     /// Bodies all larger than this are simulated with needlessly fine tolerances.
@@ -354,10 +351,11 @@ fn length_scale(scene: &Scene, found: &mut Findings) {
     let mut sizes = Vec::new();
     for (index, body) in scene.bodies.iter().enumerate().filter(|(_, body)| body.kind == BodyKind::Dynamic) {
         let bounds = scene.flat_parts(body).iter().fold(Bounds::empty(), |bounds, part| {
-            let of_part = planar_shape(part).ok().flatten().and_then(|shape| shape.bounds(&Pose::<Planar>::default()));
-            of_part.map_or(bounds, |of_part| bounds.join(of_part))
+            let shapes = D::shapes(part).unwrap_or_default();
+            shapes.iter().filter_map(D::bounds).fold(bounds, Bounds::join)
         });
-        let size = bounds.size().max_element();
+        let size = bounds.size();
+        let size = (0..D::Vector::AXES).map(|axis| size[axis]).fold(f64::NEG_INFINITY, f64::max);
         if size.is_finite() && size > 0.0 {
             sizes.push((index, size / scene.length_scale, size));
         }

@@ -2,20 +2,22 @@
 
 use super::Findings;
 use super::bodies::BodyNames;
+use crate::dim::{AngularClaim, SceneDim};
 use crate::format::{
-    AngleExpectation, Event, Expectation, JointForceExpectation, JointForcePart, ScalarExpectation, Scene,
+    AngleExpectation, Dialect, Event, Expectation, JointForceExpectation, JointForcePart, OrientationExpectation,
+    ScalarExpectation, Scene, TiltExpectation, VectorExpectation,
 };
 use crate::path::ScenePath;
 
-pub(super) fn check(scene: &Scene, bodies: &BodyNames, found: &mut Findings) {
+pub(super) fn check<D: SceneDim>(scene: &Scene<D>, bodies: &BodyNames, found: &mut Findings) {
     for (index, expectation) in scene.expect.iter().enumerate() {
         let path = ScenePath::root().field("expect").index(index);
         Checker { scene, bodies, path }.check(expectation, found);
     }
 }
 
-struct Checker<'s> {
-    scene: &'s Scene,
+struct Checker<'s, D: SceneDim> {
+    scene: &'s Scene<D>,
     bodies: &'s BodyNames,
     path: ScenePath,
 }
@@ -37,20 +39,24 @@ struct ValueFields {
     below: Option<f64>,
 }
 
-impl Checker<'_> {
-    fn check(&self, expectation: &Expectation, found: &mut Findings) {
+impl<D: SceneDim> Checker<'_, D> {
+    fn check(&self, expectation: &Expectation<D>, found: &mut Findings) {
         match expectation {
-            Expectation::Position(e) | Expectation::Velocity(e) => {
-                self.body("of", &e.of, found);
-                self.when(&WhenFields { at: e.at, always: e.always, from: e.from, until: e.until }, true, found);
-                found.not_negative(&self.path.field("within"), "a tolerance", e.within);
-            }
+            Expectation::Position(e) | Expectation::Velocity(e) => self.vector(e, found),
             Expectation::X(e)
             | Expectation::Y(e)
+            | Expectation::Z(e)
             | Expectation::VelocityX(e)
             | Expectation::VelocityY(e)
+            | Expectation::VelocityZ(e)
             | Expectation::Speed(e)
-            | Expectation::AngularVelocity(e) => self.scalar(e, found),
+            | Expectation::TurnRate(e) => self.scalar(e, found),
+            Expectation::AngularVelocity(e) => match D::angular_claim(e) {
+                AngularClaim::Scalar(e) => self.scalar(e, found),
+                AngularClaim::Vector(e) => self.vector(e, found),
+            },
+            Expectation::Orientation(e) => self.orientation(e, found),
+            Expectation::Tilt(e) => self.tilt(e, found),
             Expectation::Angle(e) => self.angle(e, found),
             Expectation::AtRest(e) => {
                 if let Some(of) = &e.of {
@@ -150,6 +156,40 @@ impl Checker<'_> {
                 "a window must end after it begins",
                 format!("{until} s is before {from} s"),
             );
+        }
+    }
+
+    fn vector<W: Dialect>(&self, e: &VectorExpectation<W>, found: &mut Findings) {
+        self.body("of", &e.of, found);
+        self.when(&WhenFields { at: e.at, always: e.always, from: e.from, until: e.until }, true, found);
+        found.not_negative(&self.path.field("within"), "a tolerance", e.within);
+    }
+
+    fn orientation(&self, e: &OrientationExpectation, found: &mut Findings) {
+        self.body("of", &e.of, found);
+        self.when(&WhenFields { at: e.at, always: e.always, from: e.from, until: e.until }, true, found);
+        found.not_negative(&self.path.field("within_degrees"), "a tolerance", e.within_degrees);
+        if e.is.as_ref().is_some_and(|orientation| orientation.rotation().is_none()) {
+            let label = "an axis or the quaternion is zero";
+            found.error(&self.path.field("is"), "this orientation has no direction", label);
+        }
+    }
+
+    fn tilt(&self, e: &TiltExpectation, found: &mut Findings) {
+        self.body("of", &e.of, found);
+        self.when(&WhenFields { at: e.at, always: e.always, from: e.from, until: e.until }, true, found);
+        let value = ValueFields {
+            suffix: "_degrees",
+            is: e.is_degrees,
+            within: e.within_degrees,
+            above: e.above_degrees,
+            below: e.below_degrees,
+        };
+        self.value(&value, found);
+        for (field, direction) in [("axis", e.axis), ("against", e.against)] {
+            if direction.is_some_and(|direction| direction.try_normalize().is_none()) {
+                found.error(&self.path.field(field), "this has no direction", "it must not be (0, 0, 0)");
+            }
         }
     }
 

@@ -1,12 +1,12 @@
 //! Numbers that are infinite or NaN. Files cannot contain them by the time they get here; scenes built in code can.
 
 use crate::diagnostics::Diagnostic;
-use crate::format::Scene;
+use crate::format::{Dialect, Scene};
 use crate::path::ScenePath;
 use crate::text::{Kind, Node, parse};
 
 /// Every number of a scene that is not finite, found in its text: RON writes them as words, which no enum uses.
-pub(super) fn check(scene: &Scene) -> Vec<Diagnostic> {
+pub(super) fn check<D: Dialect>(scene: &Scene<D>) -> Vec<Diagnostic> {
     let Ok(text) = ron::to_string(scene) else { return Vec::new() };
     let mut found = Vec::new();
     if let (Some(root), _) = parse(&text) {

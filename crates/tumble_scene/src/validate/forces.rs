@@ -1,18 +1,18 @@
 //! Springs and applied forces.
 
-use glam::DVec2;
+use tumble_math::Linear;
 
 use super::Findings;
 use super::bodies::BodyNames;
-use crate::format::{AnchorEntry, Scene};
+use crate::format::{AnchorEntry, Dialect, Scene};
 use crate::path::ScenePath;
 
-pub(super) fn check(scene: &Scene, bodies: &BodyNames, found: &mut Findings) {
+pub(super) fn check<D: Dialect>(scene: &Scene<D>, bodies: &BodyNames, found: &mut Findings) {
     springs(scene, bodies, found);
     forces(scene, bodies, found);
 }
 
-fn springs(scene: &Scene, bodies: &BodyNames, found: &mut Findings) {
+fn springs<D: Dialect>(scene: &Scene<D>, bodies: &BodyNames, found: &mut Findings) {
     for (index, spring) in scene.springs.iter().enumerate() {
         let path = ScenePath::root().field("springs").index(index);
         for (field, anchor) in [("from", &spring.from), ("to", &spring.to)] {
@@ -41,11 +41,11 @@ fn springs(scene: &Scene, bodies: &BodyNames, found: &mut Findings) {
     }
 }
 
-fn forces(scene: &Scene, bodies: &BodyNames, found: &mut Findings) {
+fn forces<D: Dialect>(scene: &Scene<D>, bodies: &BodyNames, found: &mut Findings) {
     for (index, force) in scene.forces.iter().enumerate() {
         let path = ScenePath::root().field("forces").index(index);
         bodies.check(&path.field("on"), &force.on, found);
-        if force.force == DVec2::ZERO && force.torque == 0.0 {
+        if force.force == D::Vector::ZERO && force.torque == D::Angular::ZERO {
             found.warning(&path, "this force does nothing", "neither `force` nor `torque` is given");
         }
         found.not_negative(&path.field("from"), "the beginning of a force", force.from);

@@ -2,18 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use glam::DVec2;
-use tumble_math::{PlanarRotation, Rotation};
+use tumble_math::{Linear, Rotation, Vector};
 
 use super::Findings;
 use super::bodies::BodyNames;
 use crate::diagnostics::Diagnostic;
+use crate::dim::{SceneDim, Shown};
 use crate::expand::{ExpandedBody, MOST_BODIES, count};
-use crate::format::{AnchorEntry, BodyEntry, BodyKind, JointEntry, JointKind, Scene};
+use crate::format::{AnchorEntry, BodyEntry, BodyKind, JointEntry, JointKindEntry, Scene};
 use crate::path::ScenePath;
 use crate::shapes::body_mass;
 
-pub(super) fn check(scene: &Scene, bodies: &BodyNames, found: &mut Findings) {
+pub(super) fn check<D: SceneDim>(scene: &Scene<D>, bodies: &BodyNames, found: &mut Findings) {
     if scene.joints.is_empty() {
         return;
     }
@@ -33,8 +33,8 @@ pub(super) fn check(scene: &Scene, bodies: &BodyNames, found: &mut Findings) {
     }
 }
 
-fn name<'s>(
-    joint: &'s JointEntry,
+fn name<'s, D: SceneDim>(
+    joint: &'s JointEntry<D>,
     path: &ScenePath,
     taken: &mut BTreeMap<&'s str, usize>,
     index: usize,
@@ -55,11 +55,11 @@ fn name<'s>(
 }
 
 /// Checks that the joint holds two different things, of which one is moved by forces.
-fn ends(
-    joint: &JointEntry,
+fn ends<D: SceneDim>(
+    joint: &JointEntry<D>,
     path: &ScenePath,
     bodies: &BodyNames,
-    known: &BTreeMap<&str, &BodyEntry>,
+    known: &BTreeMap<&str, &BodyEntry<D>>,
     found: &mut Findings,
 ) {
     for (field, anchor) in [("a", &joint.a), ("b", &joint.b)] {
@@ -76,7 +76,7 @@ fn ends(
             found.error(&path.field("b").field("name"), message, "the same body as at the other end");
         }
         (a, b) => {
-            let is_moved = |anchor: &AnchorEntry| match anchor {
+            let is_moved = |anchor: &AnchorEntry<D>| match anchor {
                 AnchorEntry::World { .. } => false,
                 // What is unknown has been reported.
                 AnchorEntry::Body { name, .. } => {
@@ -91,30 +91,33 @@ fn ends(
     }
 }
 
-fn quantities(joint: &JointEntry, path: &ScenePath, found: &mut Findings) {
+fn quantities<D: SceneDim>(joint: &JointEntry<D>, path: &ScenePath, found: &mut Findings) {
     let path = path.field("kind");
-    match joint.kind {
-        JointKind::Distance { length: Some(length) } => {
-            found.positive(&path.field("length"), &format!("the length of joint \"{}\"", joint.name), length);
-        }
-        JointKind::Prismatic { axis } if axis.try_normalize().is_none() => {
-            let message = format!("the axis of joint \"{}\" has no direction", joint.name);
-            found.error(&path.field("axis"), message, "it must not be (0, 0)");
-        }
-        _ => {}
+    if let Some(Some(length)) = joint.kind.length() {
+        found.positive(&path.field("length"), &format!("the length of joint \"{}\"", joint.name), length);
+    }
+    if D::joint_axis(&joint.kind).is_some_and(|axis| axis.try_normalize().is_none()) {
+        let message = format!("the axis of joint \"{}\" has no direction", joint.name);
+        found.error(&path.field("axis"), message, format!("it must not be {}", Shown(D::Vector::ZERO, 0)));
     }
 }
 
 /// Reports a joint that does not fit at the start.
-fn fit(joint: &JointEntry, path: &ScenePath, known: &BTreeMap<&str, &BodyEntry>, scene: &Scene, found: &mut Findings) {
+fn fit<D: SceneDim>(
+    joint: &JointEntry<D>,
+    path: &ScenePath,
+    known: &BTreeMap<&str, &BodyEntry<D>>,
+    scene: &Scene<D>,
+    found: &mut Findings,
+) {
     let Some([a, b]) = both_ends(joint, known) else { return };
-    if matches!(joint.kind, JointKind::Distance { length: None }) && a.point == b.point {
+    if joint.kind.length() == Some(None) && a.point == b.point {
         let message = format!("the length of joint \"{}\" must be positive", joint.name);
         return found.error(&path.field("kind"), message, "the anchors coincide at the start");
     }
-    let (gap, slop) = (gap(joint.kind, &a, &b), scene.slop_or_default());
+    let (gap, slop) = (gap(joint, &a, &b), scene.slop_or_default());
     if gap > slop && !joint.allow_gap {
-        let [at_a, at_b] = [a.point, b.point].map(|point| format!("({:.6}, {:.6})", point.x, point.y));
+        let [at_a, at_b] = [a.point, b.point].map(|point| Shown(point, 6));
         let diagnostic = Diagnostic::error(format!("joint \"{}\" is open by {gap:.3e} m at the start", joint.name))
             .about(path.field("name"))
             .labelled(format!("it holds {at_a} and {at_b}; the slop is {slop} m"))
@@ -124,52 +127,47 @@ fn fit(joint: &JointEntry, path: &ScenePath, known: &BTreeMap<&str, &BodyEntry>,
 }
 
 /// Indices of the joints of a sound scene that are open by more than the slop.
-pub(crate) fn open_joints(scene: &Scene) -> Vec<usize> {
+pub(crate) fn open_joints<D: SceneDim>(scene: &Scene<D>) -> Vec<usize> {
     let expanded = scene.expand();
     let known = by_name(&expanded);
-    let is_open = |joint: &JointEntry| {
-        both_ends(joint, &known).is_some_and(|[a, b]| gap(joint.kind, &a, &b) > scene.slop_or_default())
+    let is_open = |joint: &JointEntry<D>| {
+        both_ends(joint, &known).is_some_and(|[a, b]| gap(joint, &a, &b) > scene.slop_or_default())
     };
     (0..scene.joints.len()).filter(|&index| is_open(&scene.joints[index])).collect()
 }
 
 /// By how much the anchors are not where the joint wants them [m].
-fn gap(kind: JointKind, a: &End, b: &End) -> f64 {
-    let between = b.point - a.point;
-    match kind {
-        JointKind::Revolute | JointKind::Fixed => between.length(),
-        JointKind::Distance { length } => length.map_or(0.0, |length| (between.length() - length).abs()),
-        JointKind::Prismatic { axis } => a.rotation.rotate(axis).normalize_or_zero().perp_dot(between).abs(),
-    }
+fn gap<D: SceneDim>(joint: &JointEntry<D>, a: &End<D>, b: &End<D>) -> f64 {
+    D::joint_gap(&joint.kind, b.point - a.point, &a.rotation)
 }
 
-fn by_name(expanded: &[ExpandedBody]) -> BTreeMap<&str, &BodyEntry> {
+fn by_name<D: SceneDim>(expanded: &[ExpandedBody<D>]) -> BTreeMap<&str, &BodyEntry<D>> {
     expanded.iter().map(|body| (body.body.name.as_str(), &body.body)).collect()
 }
 
-fn both_ends(joint: &JointEntry, known: &BTreeMap<&str, &BodyEntry>) -> Option<[End; 2]> {
+fn both_ends<D: SceneDim>(joint: &JointEntry<D>, known: &BTreeMap<&str, &BodyEntry<D>>) -> Option<[End<D>; 2]> {
     Some([End::of(&joint.a, known)?, End::of(&joint.b, known)?])
 }
 
 /// Where an anchor is at the start.
-struct End {
+struct End<D: SceneDim> {
     /// World axes [m].
-    point: DVec2,
+    point: D::Vector,
     /// From the design frame to world axes.
-    rotation: PlanarRotation,
+    rotation: D::Rotation,
 }
 
-impl End {
+impl<D: SceneDim> End<D> {
     /// `None` for a body that is not known, or has no centre of mass.
-    fn of(anchor: &AnchorEntry, known: &BTreeMap<&str, &BodyEntry>) -> Option<Self> {
+    fn of(anchor: &AnchorEntry<D>, known: &BTreeMap<&str, &BodyEntry<D>>) -> Option<Self> {
         match anchor {
-            AnchorEntry::World { point } => Some(Self { point: *point, rotation: PlanarRotation::default() }),
+            AnchorEntry::World { point } => Some(Self { point: *point, rotation: D::Rotation::default() }),
             AnchorEntry::Body { name, point } => {
                 let body = known.get(name.as_str())?;
-                let rotation = PlanarRotation::from_degrees(body.angle_degrees);
+                let rotation = D::design_rotation(body);
                 let centre = || match body.kind {
                     BodyKind::Dynamic => body_mass(body, &body.parts).map(|mass| mass.centre),
-                    _ => Some(body.centre.unwrap_or(DVec2::ZERO)),
+                    _ => Some(body.centre.unwrap_or(D::Vector::ZERO)),
                 };
                 let point = point.or_else(centre)?;
                 Some(Self { point: body.at + rotation.rotate(point), rotation })

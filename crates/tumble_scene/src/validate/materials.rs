@@ -2,9 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use tumble_math::Planar;
+
 use super::Findings;
 use crate::diagnostics::Diagnostic;
-use crate::format::{Coefficient, FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Scene};
+use crate::dim::SceneDim;
+use crate::format::{Coefficient, Dialect, FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Scene};
 use crate::materials::MaterialLibrary;
 use crate::meetings::{Meeting, meetings};
 use crate::path::ScenePath;
@@ -12,15 +15,15 @@ use crate::path::ScenePath;
 /// Every mistake of a table.
 pub(crate) fn check_table(table: &MaterialTable) -> Vec<Diagnostic> {
     let mut found = Findings { list: Vec::new() };
-    if table.format != Scene::FORMAT {
-        let label = format!("this version of tumble reads format {}", Scene::FORMAT);
+    if table.format != Scene::<Planar>::FORMAT {
+        let label = format!("this version of tumble reads format {}", Scene::<Planar>::FORMAT);
         found.error(&ScenePath::root().field("format"), format!("format {} is not known", table.format), label);
     }
     figures(&table.materials, &table.pairs, &mut found);
     found.list
 }
 
-pub(super) fn check(scene: &Scene, found: &mut Findings) {
+pub(super) fn check<D: Dialect>(scene: &Scene<D>, found: &mut Findings) {
     figures(&scene.materials, &scene.pairs, found);
 }
 
@@ -69,7 +72,7 @@ fn restitution(path: &ScenePath, restitution: Option<f64>, found: &mut Findings)
 }
 
 /// Notices about every pair of materials that can meet in the scene.
-pub(super) fn notices(scene: &Scene, library: &MaterialLibrary, found: &mut Findings) {
+pub(super) fn notices<D: SceneDim>(scene: &Scene<D>, library: &MaterialLibrary, found: &mut Findings) {
     for Meeting { materials: [a, b], places: [place_a, place_b] } in meetings(scene) {
         for notice in library.pair(&a, &b).notices {
             let diagnostic = Diagnostic::warning(format!("\"{a}\" on \"{b}\": {notice}"));

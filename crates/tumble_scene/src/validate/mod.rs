@@ -7,10 +7,12 @@ mod forces;
 mod joints;
 mod materials;
 mod settings;
+mod words;
 
 use std::collections::BTreeSet;
 
 use crate::diagnostics::{Diagnostic, nearest_or_all};
+use crate::dim::SceneDim;
 use crate::expand::{MOST_BODIES, copies, count};
 use crate::format::Scene;
 use crate::materials::MaterialLibrary;
@@ -23,13 +25,18 @@ pub(crate) use materials::check_table;
 ///
 /// Initial overlap is not looked for here: it needs collision detection, so whoever builds the world adds it with
 /// [`Loaded::diagnose`](crate::Loaded::diagnose).
-pub fn validate(scene: &Scene, library: &MaterialLibrary) -> Vec<Diagnostic> {
+pub fn validate<D: SceneDim>(scene: &Scene<D>, library: &MaterialLibrary) -> Vec<Diagnostic> {
+    (D::scene_engine().validate)(scene, library)
+}
+
+pub(crate) fn findings<D: SceneDim>(scene: &Scene<D>, library: &MaterialLibrary) -> Vec<Diagnostic> {
     let mut found = Findings { list: finite::check(scene) };
     // Comparisons below assume finite numbers.
     if !found.list.is_empty() {
         return found.list;
     }
     let bodies = bodies::BodyNames::of(scene);
+    words::check(scene, &mut found);
     settings::check(scene, &mut found);
     materials::check(scene, &mut found);
     bodies::check(scene, library, &bodies, &mut found);
@@ -83,7 +90,7 @@ impl Findings {
 }
 
 /// Names of single bodies, repeats unrolled; too large repeats are left out.
-fn single_names(scene: &Scene) -> BTreeSet<String> {
+fn single_names<D: SceneDim>(scene: &Scene<D>) -> BTreeSet<String> {
     let small = scene.bodies.iter().filter(|entry| count(entry) <= MOST_BODIES);
     small.flat_map(|entry| copies(entry).map(|copy| copy.name)).collect()
 }

@@ -1,14 +1,18 @@
 //! The settings at the top of a scene.
 
 use super::Findings;
-use crate::format::Scene;
+use crate::format::{Dialect, Scene};
 use crate::path::ScenePath;
 
-pub(super) fn check(scene: &Scene, found: &mut Findings) {
+pub(super) fn check<D: Dialect>(scene: &Scene<D>, found: &mut Findings) {
     let top = ScenePath::root();
-    if scene.format != Scene::FORMAT {
+    if scene.format != Scene::<D>::FORMAT {
         let message = format!("format {} is not known", scene.format);
-        found.error(&top.field("format"), message, format!("this version of tumble reads format {}", Scene::FORMAT));
+        found.error(
+            &top.field("format"),
+            message,
+            format!("this version of tumble reads format {}", Scene::<D>::FORMAT),
+        );
     }
     found.positive(&top.field("dt"), "the time step dt", scene.dt);
     found.positive(&top.field("duration"), "the duration", scene.duration);
@@ -29,7 +33,7 @@ pub(super) fn check(scene: &Scene, found: &mut Findings) {
     models(scene, found);
 }
 
-fn models(scene: &Scene, found: &mut Findings) {
+fn models<D: Dialect>(scene: &Scene<D>, found: &mut Findings) {
     let penalty = &scene.models.penalty;
     let path = ScenePath::root().field("models").field("penalty");
     let positive = [

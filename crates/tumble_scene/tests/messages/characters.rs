@@ -24,7 +24,7 @@ error: the scene has no field `dtt`
 1 | (format: 1, duration: 1.0, about: "größer als 2 µm ✓", dtt: 0.1)
   |                                                        ^^^ did you mean `dt`?
   |
-  = help: allowed are format, about, dt, duration, gravity, length_scale, slop, integrator, time_of_impact, contact, models, every, seed, allow_overlap, materials_from, materials, pairs, surface, take, part_lists, bodies, springs, joints, forces, expect
+  = help: allowed are format, dimension, about, dt, duration, gravity, length_scale, slop, integrator, time_of_impact, contact, models, every, seed, allow_overlap, materials_from, materials, pairs, surface, take, part_lists, bodies, springs, joints, forces, expect
 "##);
 }
 

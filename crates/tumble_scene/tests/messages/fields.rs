@@ -35,7 +35,7 @@ error: the scene has no field `wind`
 5 |     wind: 3,
   |     ^^^^ unknown field
   |
-  = help: allowed are format, about, dt, duration, gravity, length_scale, slop, integrator, time_of_impact, contact, models, every, seed, allow_overlap, materials_from, materials, pairs, surface, take, part_lists, bodies, springs, joints, forces, expect
+  = help: allowed are format, dimension, about, dt, duration, gravity, length_scale, slop, integrator, time_of_impact, contact, models, every, seed, allow_overlap, materials_from, materials, pairs, surface, take, part_lists, bodies, springs, joints, forces, expect
 "##);
 }
 

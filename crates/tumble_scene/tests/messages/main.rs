@@ -10,6 +10,7 @@ mod materials;
 mod parts;
 mod settings;
 mod several;
+mod space;
 mod syntax;
 mod warnings;
 

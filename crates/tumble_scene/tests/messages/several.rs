@@ -28,7 +28,7 @@ error: the scene has no field `gravty`
 4 |     gravty: (0, -9.81),
   |     ^^^^^^ did you mean `gravity`?
   |
-  = help: allowed are format, about, dt, duration, gravity, length_scale, slop, integrator, time_of_impact, contact, models, every, seed, allow_overlap, materials_from, materials, pairs, surface, take, part_lists, bodies, springs, joints, forces, expect
+  = help: allowed are format, dimension, about, dt, duration, gravity, length_scale, slop, integrator, time_of_impact, contact, models, every, seed, allow_overlap, materials_from, materials, pairs, surface, take, part_lists, bodies, springs, joints, forces, expect
 
 error: `kind` cannot be `Dynamik`
  --> scene.ron:6:29

@@ -11,7 +11,7 @@ fn contact_forces_add_as_vectors_with_the_sign_of_the_side() {
     met(&recording, r#"ContactForceSum(on: "floor", by: "box", at: 1.0, is: Vector(-3, -19.62), within: 1e-9)"#);
     met(&recording, r#"ContactForceSum(on: "floor", by: "crate", at: 1.0, is: Vector(0, 0), within: 0.0)"#);
     let failed = failed(&recording, r#"ContactForceSum(on: "box", at: 1.0, is: Vector(3, 19.62), within: 4.9)"#);
-    assert!((failed.measured.unwrap().vector().unwrap() - dvec2(-2.0, 19.62)).length() <= ROUNDING);
+    assert_vector(failed.measured.unwrap().vector(), dvec2(-2.0, 19.62));
 }
 
 #[test]
@@ -45,15 +45,14 @@ fn weight_is_the_opposite_of_gravity_on_the_body() {
     let by_floor = r#"ContactForceSum(on: "box", by: "floor", at: 1.0, is: Weight, within: 3.01)"#;
     let met = met(&recording, by_floor);
     // 2 kg · 9.81 m/s², up; the 3 N sideways are the distance.
-    assert!((met.expected.unwrap().vector().unwrap() - dvec2(0.0, 19.62)).length() <= ROUNDING);
+    assert_vector(met.expected.unwrap().vector(), dvec2(0.0, 19.62));
     failed(&recording, &by_floor.replace("3.01", "2.99"));
     // A body of which half the gravity acts weighs half.
     let mut light = scene(by_floor);
     light.bodies[0].gravity_scale = 0.5;
     let verdict = evaluate(&light, ContactModel::Impulse, &recording);
     assert_eq!(verdict.outcomes[0].status, Status::Failed);
-    let expected = verdict.outcomes[0].expected.as_ref().unwrap().vector().unwrap();
-    assert!((expected - dvec2(0.0, 9.81)).length() <= ROUNDING);
+    assert_vector(verdict.outcomes[0].expected.as_ref().unwrap().vector(), dvec2(0.0, 9.81));
     let on_floor = failed(&recording, r#"ContactForceSum(on: "floor", at: 1.0, is: Weight, within: 1e9)"#);
     assert_eq!(on_floor.obstacle, Some(NotMeasured::NoWeight { body: "floor".to_owned() }));
 }

@@ -8,6 +8,7 @@ mod event;
 mod force;
 mod joint;
 mod lines;
+mod space;
 mod state;
 mod world;
 
@@ -17,7 +18,7 @@ use glam::{DVec2, dvec2};
 use ron::extensions::Extensions;
 use tumble_record::{AuditRow, BodyKind, BodyRecord, BodyState, ContactRecord, Recording, Sample, Touch, TouchPhase};
 
-use super::{Measured, NotMeasured, Outcome, Status, Verdict, evaluate};
+use super::{Measured, NotMeasured, Outcome, Status, Verdict, WorldVector, evaluate};
 use crate::format::{BodyEntry, ContactModel, Expectation, Repeat, RepeatLine, Scene};
 
 const BOX: usize = 0;
@@ -131,6 +132,13 @@ fn failed(recording: &Recording, expectation: &str) -> Outcome {
 fn assert_measured(outcome: &Outcome, number: f64) {
     let measured = outcome.measured.as_ref().and_then(Measured::number).expect("a number was measured");
     assert!((measured - number).abs() <= ROUNDING, "{measured} instead of {number}");
+}
+
+/// Asserts that a vector is right up to rounding.
+#[track_caller]
+fn assert_vector(vector: Option<WorldVector>, wanted: DVec2) {
+    let vector = vector.expect("there is a vector");
+    assert!(vector.distance(&WorldVector::new(wanted)) <= ROUNDING, "{vector:?} instead of {wanted}");
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn each_quantity_of_a_state_is_met_with_its_number() {
         assert_eq!(met.body.as_deref(), Some("box"));
     }
     let position = met(&recording, r#"Position(of: "box", at: 1.5, is: (4.5, -6.3), within: 0.31)"#);
-    assert!((position.measured.unwrap().vector().unwrap() - dvec2(4.5, -6.0)).length() <= ROUNDING);
+    assert_vector(position.measured.unwrap().vector(), dvec2(4.5, -6.0));
     met(&recording, r#"Velocity(of: "box", always: true, is: (3, -4), within: 0.0)"#);
 }
 

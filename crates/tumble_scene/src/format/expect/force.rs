@@ -2,13 +2,15 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tumble_math::Planar;
 
-use crate::format::ContactModel;
+use crate::format::{ContactModel, Dialect};
 
 /// Sum of the contact forces on a body, at a time or on average over a window. The force of a step is its impulse divided by dt.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ForceExpectation {
+#[serde(deny_unknown_fields, bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub struct ForceExpectation<D: Dialect = Planar> {
     /// Name of the body; that of a repeated body claims it for every copy.
     pub on: String,
     /// Only forces by this body, or by any copy of a repeated one. Default by all.
@@ -24,7 +26,7 @@ pub struct ForceExpectation {
     #[serde(default)]
     pub until: Option<f64>,
     /// The force.
-    pub is: TargetForce,
+    pub is: TargetForce<D>,
     /// Largest difference [N].
     pub within: f64,
     /// Why this must be so. Default empty.
@@ -37,13 +39,15 @@ pub struct ForceExpectation {
 
 /// What a sum of forces is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub enum TargetForce {
+#[serde(bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub enum TargetForce<D: Dialect = Planar> {
     /// The force that carries the body: the opposite of gravity on it.
     Weight,
     /// A magnitude [N].
     Newtons(f64),
-    /// Both components, world axes [N].
-    Vector(f64, f64),
+    /// All components, world axes [N].
+    Vector(#[schemars(with = "D::VectorText")] D::Vector),
 }
 
 /// Force or torque of a joint on the body that it holds as its second (`b`), mean of a step. Say when by one of `at`, `always: true`, or
@@ -98,7 +102,9 @@ pub enum JointForcePart {
     X,
     /// Along y, world axes.
     Y,
-    /// The torque about the anchor, counter-clockwise.
+    /// Along z, world axes, in space.
+    Z,
+    /// The torque about the anchor, counter-clockwise; in space its magnitude.
     Torque,
 }
 

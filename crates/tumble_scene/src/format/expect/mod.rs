@@ -10,35 +10,51 @@ mod world;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tumble_math::Planar;
 
-use super::ContactModel;
+use super::{ContactModel, Dialect};
 
 pub use event::{Event, HappensExpectation, NeverExpectation, OrderExpectation};
 pub use force::{ForceExpectation, FrictionExpectation, JointForceExpectation, JointForcePart, TargetForce};
-pub use state::{AngleExpectation, AtRestExpectation, FingerprintExpectation, ScalarExpectation, VectorExpectation};
+pub use state::{
+    AngleExpectation, AtRestExpectation, FingerprintExpectation, OrientationExpectation, ScalarExpectation,
+    TiltExpectation, VectorExpectation,
+};
 pub use world::{DepthExpectation, EnergyNeverRisesExpectation, KeptExpectation};
 
 /// Something a run must show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub enum Expectation {
+#[serde(bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub enum Expectation<D: Dialect = Planar> {
     /// Position of a body's centre of mass [m].
-    Position(VectorExpectation),
+    Position(VectorExpectation<D>),
     /// First coordinate of a body's centre of mass [m].
     X(ScalarExpectation),
     /// Second coordinate of a body's centre of mass [m].
     Y(ScalarExpectation),
-    /// Angle of a body, counted over turns [degrees].
+    /// Third coordinate of a body's centre of mass, in space [m].
+    Z(ScalarExpectation),
+    /// Angle of a body, counted over turns, in the plane [degrees].
     Angle(AngleExpectation),
+    /// Orientation of a body, in space.
+    Orientation(OrientationExpectation),
+    /// Angle between an axis of a body and a direction, in space [degrees].
+    Tilt(TiltExpectation),
     /// Velocity of a body's centre of mass [m/s].
-    Velocity(VectorExpectation),
+    Velocity(VectorExpectation<D>),
     /// Velocity of a body's centre of mass along x [m/s].
     VelocityX(ScalarExpectation),
     /// Velocity of a body's centre of mass along y [m/s].
     VelocityY(ScalarExpectation),
+    /// Velocity of a body's centre of mass along z, in space [m/s].
+    VelocityZ(ScalarExpectation),
     /// Magnitude of the velocity of a body's centre of mass [m/s].
     Speed(ScalarExpectation),
-    /// Rate of turn of a body [rad/s].
-    AngularVelocity(ScalarExpectation),
+    /// Rate of turn of a body: a number in the plane, a vector along world axes in space [rad/s].
+    AngularVelocity(D::AngularExpectation),
+    /// Magnitude of the rate of turn of a body, in space [rad/s].
+    TurnRate(ScalarExpectation),
     /// A body that has come to rest.
     AtRest(AtRestExpectation),
     /// Total energy never rises above its lowest value so far.
@@ -52,7 +68,7 @@ pub enum Expectation {
     /// Deepest overlap of any two bodies [m].
     Depth(DepthExpectation),
     /// Vector sum of the contact forces on a body [N].
-    ContactForceSum(ForceExpectation),
+    ContactForceSum(ForceExpectation<D>),
     /// Magnitude of the vector sum of the friction forces on a body [N].
     FrictionForce(FrictionExpectation),
     /// Force or torque of a joint [N], [N·m].
@@ -82,6 +98,9 @@ pub enum When {
 }
 
 impl When {
+    /// From the start to the end.
+    pub const WHOLE_RUN: Self = Self::Throughout { from: 0.0, until: f64::INFINITY };
+
     /// Reads the fields of an expectation; without any of them, the whole run.
     fn of(at: Option<f64>, from: Option<f64>, until: Option<f64>) -> Self {
         match at {
@@ -91,19 +110,24 @@ impl When {
     }
 }
 
-impl Expectation {
+impl<D: Dialect> Expectation<D> {
     /// The variant's name, as it stands in a file.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Position(_) => "Position",
             Self::X(_) => "X",
             Self::Y(_) => "Y",
+            Self::Z(_) => "Z",
             Self::Angle(_) => "Angle",
+            Self::Orientation(_) => "Orientation",
+            Self::Tilt(_) => "Tilt",
             Self::Velocity(_) => "Velocity",
             Self::VelocityX(_) => "VelocityX",
             Self::VelocityY(_) => "VelocityY",
+            Self::VelocityZ(_) => "VelocityZ",
             Self::Speed(_) => "Speed",
             Self::AngularVelocity(_) => "AngularVelocity",
+            Self::TurnRate(_) => "TurnRate",
             Self::AtRest(_) => "AtRest",
             Self::EnergyNeverRises(_) => "EnergyNeverRises",
             Self::EnergyKept(_) => "EnergyKept",
@@ -120,28 +144,33 @@ impl Expectation {
         }
     }
 
-    /// Why it must be so, as written, and the contact models for which it is claimed (empty: all).
-    pub fn because_and_under(&self) -> (&str, &[ContactModel]) {
+    /// What all claims have in common.
+    pub fn claim(&self) -> &dyn Claim {
         match self {
-            Self::Position(e) | Self::Velocity(e) => (&e.because, &e.under),
+            Self::Position(e) | Self::Velocity(e) => e,
             Self::X(e)
             | Self::Y(e)
+            | Self::Z(e)
             | Self::VelocityX(e)
             | Self::VelocityY(e)
+            | Self::VelocityZ(e)
             | Self::Speed(e)
-            | Self::AngularVelocity(e) => (&e.because, &e.under),
-            Self::Angle(e) => (&e.because, &e.under),
-            Self::AtRest(e) => (&e.because, &e.under),
-            Self::EnergyNeverRises(e) => (&e.because, &e.under),
-            Self::EnergyKept(e) | Self::MomentumKept(e) | Self::AngularMomentumKept(e) => (&e.because, &e.under),
-            Self::Depth(e) => (&e.because, &e.under),
-            Self::ContactForceSum(e) => (&e.because, &e.under),
-            Self::FrictionForce(e) => (&e.because, &e.under),
-            Self::JointForce(e) => (&e.because, &e.under),
-            Self::Order(e) => (&e.because, &e.under),
-            Self::Happens(e) => (&e.because, &e.under),
-            Self::Never(e) => (&e.because, &e.under),
-            Self::Fingerprint(e) => (&e.because, &e.under),
+            | Self::TurnRate(e) => e,
+            Self::Angle(e) => e,
+            Self::AngularVelocity(e) => e,
+            Self::Orientation(e) => e,
+            Self::Tilt(e) => e,
+            Self::AtRest(e) => e,
+            Self::EnergyNeverRises(e) => e,
+            Self::EnergyKept(e) | Self::MomentumKept(e) | Self::AngularMomentumKept(e) => e,
+            Self::Depth(e) => e,
+            Self::ContactForceSum(e) => e,
+            Self::FrictionForce(e) => e,
+            Self::JointForce(e) => e,
+            Self::Order(e) => e,
+            Self::Happens(e) => e,
+            Self::Never(e) => e,
+            Self::Fingerprint(e) => e,
         }
     }
 
@@ -151,11 +180,16 @@ impl Expectation {
             Self::Position(e) | Self::Velocity(e) => e.under.clear(),
             Self::X(e)
             | Self::Y(e)
+            | Self::Z(e)
             | Self::VelocityX(e)
             | Self::VelocityY(e)
+            | Self::VelocityZ(e)
             | Self::Speed(e)
-            | Self::AngularVelocity(e) => e.under.clear(),
+            | Self::TurnRate(e) => e.under.clear(),
             Self::Angle(e) => e.under.clear(),
+            Self::AngularVelocity(e) => e.claim_under_all(),
+            Self::Orientation(e) => e.under.clear(),
+            Self::Tilt(e) => e.under.clear(),
             Self::AtRest(e) => e.under.clear(),
             Self::EnergyNeverRises(e) => e.under.clear(),
             Self::EnergyKept(e) | Self::MomentumKept(e) | Self::AngularMomentumKept(e) => e.under.clear(),
@@ -170,6 +204,12 @@ impl Expectation {
         }
     }
 
+    /// Why it must be so, as written, and the contact models for which it is claimed (empty: all).
+    pub fn because_and_under(&self) -> (&str, &[ContactModel]) {
+        let claim = self.claim();
+        (claim.because(), claim.under())
+    }
+
     /// Whether it is claimed for a contact model.
     pub fn is_claimed_under(&self, model: ContactModel) -> bool {
         let (_, under) = self.because_and_under();
@@ -178,28 +218,79 @@ impl Expectation {
 
     /// When it must hold; the whole run for those that say nothing.
     pub fn when(&self) -> When {
-        match self {
-            Self::Position(e) | Self::Velocity(e) => When::of(e.at, e.from, e.until),
-            Self::X(e)
-            | Self::Y(e)
-            | Self::VelocityX(e)
-            | Self::VelocityY(e)
-            | Self::Speed(e)
-            | Self::AngularVelocity(e) => When::of(e.at, e.from, e.until),
-            Self::Angle(e) => When::of(e.at, e.from, e.until),
-            Self::AtRest(e) => When::of(None, Some(e.from), None),
-            Self::Depth(e) => When::of(e.at, e.from, e.until),
-            Self::ContactForceSum(e) => When::of(e.at, e.from, e.until),
-            Self::FrictionForce(e) => When::of(e.at, e.from, e.until),
-            Self::JointForce(e) => When::of(e.at, e.from, e.until),
-            Self::Happens(e) => When::At(e.at),
-            Self::EnergyNeverRises(_)
-            | Self::EnergyKept(_)
-            | Self::MomentumKept(_)
-            | Self::AngularMomentumKept(_)
-            | Self::Order(_)
-            | Self::Never(_)
-            | Self::Fingerprint(_) => When::of(None, None, None),
-        }
+        self.claim().when()
     }
 }
+
+/// What all claims have in common.
+pub trait Claim {
+    /// Why it must be so, as written.
+    fn because(&self) -> &str;
+
+    /// Contact models for which it is claimed; empty for all.
+    fn under(&self) -> &[ContactModel];
+
+    /// Claims it for every contact model.
+    fn claim_under_all(&mut self);
+
+    /// When it must hold; the whole run for those that say nothing.
+    fn when(&self) -> When;
+
+    /// Names of the bodies that it is about, as written.
+    fn bodies(&self) -> Vec<&str>;
+}
+
+/// Says of a kind of claim when it holds and which bodies it is about.
+macro_rules! claim {
+    ($type:ident$(<$d:ident>)?, |$e:ident| $when:expr, $bodies:expr) => {
+        impl$(<$d: Dialect>)? Claim for $type$(<$d>)? {
+            fn because(&self) -> &str {
+                &self.because
+            }
+
+            fn under(&self) -> &[ContactModel] {
+                &self.under
+            }
+
+            fn claim_under_all(&mut self) {
+                self.under.clear();
+            }
+
+            fn when(&self) -> When {
+                #[allow(unused_variables)]
+                let $e = self;
+                $when
+            }
+
+            fn bodies(&self) -> Vec<&str> {
+                #[allow(unused_variables)]
+                let $e = self;
+                $bodies
+            }
+        }
+    };
+}
+
+/// The moment or window that a claim gives by `at`, `from` and `until`.
+macro_rules! written {
+    ($e:ident) => {
+        When::of($e.at, $e.from, $e.until)
+    };
+}
+
+claim!(VectorExpectation<D>, |e| written!(e), vec![&e.of]);
+claim!(ScalarExpectation, |e| written!(e), vec![&e.of]);
+claim!(AngleExpectation, |e| written!(e), vec![&e.of]);
+claim!(OrientationExpectation, |e| written!(e), vec![&e.of]);
+claim!(TiltExpectation, |e| written!(e), vec![&e.of]);
+claim!(AtRestExpectation, |e| When::of(None, Some(e.from), None), e.of.as_deref().into_iter().collect());
+claim!(DepthExpectation, |e| written!(e), Vec::new());
+claim!(ForceExpectation<D>, |e| written!(e), [Some(&*e.on), e.by.as_deref()].into_iter().flatten().collect());
+claim!(FrictionExpectation, |e| written!(e), [Some(&*e.on), e.by.as_deref()].into_iter().flatten().collect());
+claim!(JointForceExpectation, |e| written!(e), Vec::new());
+claim!(HappensExpectation, |e| When::At(e.at), e.event.bodies().into());
+claim!(OrderExpectation, |e| When::WHOLE_RUN, e.events.iter().flat_map(Event::bodies).collect());
+claim!(NeverExpectation, |e| When::WHOLE_RUN, e.event.bodies().into());
+claim!(EnergyNeverRisesExpectation, |e| When::WHOLE_RUN, Vec::new());
+claim!(KeptExpectation, |e| When::WHOLE_RUN, Vec::new());
+claim!(FingerprintExpectation, |e| When::WHOLE_RUN, Vec::new());

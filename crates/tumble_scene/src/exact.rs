@@ -1,20 +1,24 @@
 //! Numbers of a file that become, when it is read, the numbers of a simulation to the last bit.
 
-use glam::DVec2;
+use glam::{DQuat, DVec2, DVec3};
+use tumble_math::{SpatialRotation, Vector};
 
 /// The number of degrees that means an angle [rad].
-pub(super) fn degrees(angle: f64) -> f64 {
+pub(crate) fn degrees(angle: f64) -> f64 {
     preimage(angle, angle.to_degrees(), f64::to_radians)
 }
 
 /// The point that a shift takes to `wanted` [m].
-pub(super) fn before_shift(wanted: DVec2, shift: DVec2) -> DVec2 {
-    let guess = wanted - shift;
-    DVec2::new(preimage(wanted.x, guess.x, |x| x + shift.x), preimage(wanted.y, guess.y, |y| y + shift.y))
+pub(crate) fn before_shift<V: Vector>(wanted: V, shift: V) -> V {
+    let mut found = wanted - shift;
+    for axis in 0..V::AXES {
+        found[axis] = preimage(wanted[axis], found[axis], |x| x + shift[axis]);
+    }
+    found
 }
 
 /// The direction whose unit vector is `wanted`, to the last bit: a unit vector itself may change when it is made one again.
-pub(super) fn before_normalization(wanted: DVec2) -> DVec2 {
+pub(crate) fn before_normalization(wanted: DVec2) -> DVec2 {
     let becomes_wanted = |direction: &DVec2| direction.try_normalize() == Some(wanted);
     // Lengths from 1 to 2 stand for all of them: doubling a vector changes no rounding.
     let mut candidates = (0..512).flat_map(|part| {
@@ -22,6 +26,26 @@ pub(super) fn before_normalization(wanted: DVec2) -> DVec2 {
         neighbours(near.x).into_iter().flat_map(move |x| neighbours(near.y).map(|y| DVec2::new(x, y)))
     });
     candidates.find(becomes_wanted).unwrap_or(wanted)
+}
+
+/// The direction whose unit vector is `wanted`, to the last bit where one is found among its multiples.
+pub(crate) fn spatial_before_normalization(wanted: DVec3) -> DVec3 {
+    let becomes_wanted = |direction: &DVec3| Vector::try_normalize(*direction) == Some(wanted);
+    multiples().map(|factor| wanted * factor).find(becomes_wanted).unwrap_or(wanted)
+}
+
+/// The quaternion that becomes `wanted` when it is made unit, to the last bit where one is found among its multiples.
+pub(crate) fn quaternion_before_normalization(wanted: DQuat) -> DQuat {
+    let becomes_wanted = |quaternion: &DQuat| {
+        SpatialRotation::try_from_quaternion(*quaternion).is_some_and(|rotation| rotation.quaternion() == wanted)
+    };
+    multiples().map(|factor| wanted * factor).find(becomes_wanted).unwrap_or(wanted)
+}
+
+/// Factors from 1 to 2, which stand for all of them: doubling a vector changes no rounding.
+fn multiples() -> impl Iterator<Item = f64> {
+    const PARTS: u32 = 512;
+    (0..PARTS).map(|part| 1.0 + f64::from(part) / f64::from(PARTS))
 }
 
 /// A number, and the three next to it on either side.

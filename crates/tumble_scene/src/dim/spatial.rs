@@ -1,0 +1,262 @@
+//! Scenes of space.
+
+use bevy_ecs::world::{EntityRef, EntityWorldMut};
+use glam::{DQuat, DVec3};
+use tumble_math::{Bounds, Pose, Rotation, Spatial, SpatialRotation, SymmetricTensor};
+use tumble_record::RecordDim;
+use tumble_shape::{
+    Capsule, Cone, ConvexHull, Cuboid, Cylinder, HalfSpace, MassProperties, SpatialRod, SpatialShape, Sphere,
+    TriangleMesh,
+};
+
+use super::{AngularClaim, PartError, PartFields, SceneDim};
+use crate::engine::SceneEngine;
+use crate::exact::{quaternion_before_normalization, spatial_before_normalization};
+use crate::expect::Measured;
+use crate::format::{
+    BodyEntry, CapsulePart, ConePart, CylinderPart, HalfSpacePart, HeightFieldPart, HullPart, InertiaEntry, Keyframe,
+    OrientationEntry, SpatialBoxPart, SpatialJointKind, SpatialPart, SpatialRodPart, SpherePart, VectorExpectation,
+};
+
+impl SceneDim for Spatial {
+    fn scene_engine() -> &'static SceneEngine<Self> {
+        static SPATIAL: SceneEngine<Spatial> = SceneEngine::new();
+        &SPATIAL
+    }
+
+    fn shapes(part: &SpatialPart) -> Result<Vec<SpatialShape>, PartError> {
+        let shape: SpatialShape = match part {
+            SpatialPart::Sphere(part) => Sphere::try_new(part.at, part.radius)?.into(),
+            SpatialPart::Box(part) => {
+                let rotation = rotation_of(part.orientation.as_ref()).ok_or(PartError::Orientation)?;
+                Cuboid::try_new(part.at, part.size * 0.5, rotation)?.into()
+            }
+            SpatialPart::Capsule(part) => Capsule::try_new(part.from, part.to, part.radius)?.into(),
+            SpatialPart::Rod(part) => SpatialRod::try_new(part.from, part.to, part.radius)?.into(),
+            SpatialPart::Cylinder(part) => Cylinder::try_new(part.from, part.to, part.radius)?.into(),
+            SpatialPart::Cone(part) => Cone::try_new(part.base, part.tip, part.radius)?.into(),
+            SpatialPart::Hull(part) => ConvexHull::try_new(&part.points)?.into(),
+            SpatialPart::HalfSpace(part) => HalfSpace::try_new(part.normal, part.offset)?.into(),
+            SpatialPart::Mesh(part) => {
+                let triangles: Vec<[u32; 3]> = part.triangles.iter().map(|&(a, b, c)| [a, b, c]).collect();
+                return Ok(facets(&TriangleMesh::try_new(part.points.clone(), triangles, part.thickness)?));
+            }
+            SpatialPart::HeightField(part) => return Ok(facets(&height_field(part)?)),
+            SpatialPart::List(_) => return Ok(Vec::new()),
+        };
+        Ok(vec![shape])
+    }
+
+    fn part(shape: &SpatialShape, fields: PartFields) -> Option<SpatialPart> {
+        let (density, mass) = fields.density_and_mass();
+        let PartFields { material, sensor, groups, collides_with, .. } = fields;
+        Some(match shape {
+            SpatialShape::Sphere(sphere) => {
+                let (at, radius) = (sphere.centre(), sphere.radius());
+                SpatialPart::Sphere(SpherePart { at, radius, density, mass, material, sensor, groups, collides_with })
+            }
+            SpatialShape::SpatialRod(rod) => {
+                let ([from, to], radius) = (*rod.ends(), rod.radius());
+                let part = SpatialRodPart { from, to, radius, density, mass, material, sensor, groups, collides_with };
+                SpatialPart::Rod(part)
+            }
+            SpatialShape::Capsule(capsule) => {
+                let ([from, to], radius) = (*capsule.ends(), capsule.radius());
+                let part = CapsulePart { from, to, radius, density, mass, material, sensor, groups, collides_with };
+                SpatialPart::Capsule(part)
+            }
+            SpatialShape::Cuboid(cuboid) => {
+                let (at, size) = (cuboid.centre(), cuboid.half_extents() * 2.0);
+                let rotation = DQuat::from_mat3(cuboid.axes());
+                let is_turned = *cuboid.axes() != glam::DMat3::IDENTITY;
+                let rotation = SpatialRotation::try_from_quaternion(rotation).filter(|_| is_turned);
+                let orientation = rotation.as_ref().map(written);
+                let part =
+                    SpatialBoxPart { size, at, orientation, density, mass, material, sensor, groups, collides_with };
+                SpatialPart::Box(part)
+            }
+            SpatialShape::ConvexHull(hull) => {
+                let points = hull.vertices().to_vec();
+                SpatialPart::Hull(HullPart { points, density, mass, material, sensor, groups, collides_with })
+            }
+            SpatialShape::Cylinder(cylinder) => {
+                let ([from, to], radius) = (*cylinder.ends(), cylinder.radius());
+                let part = CylinderPart { from, to, radius, density, mass, material, sensor, groups, collides_with };
+                SpatialPart::Cylinder(part)
+            }
+            SpatialShape::Cone(cone) => {
+                let (base, tip, radius) = (cone.base(), cone.tip(), cone.radius());
+                let part = ConePart { base, tip, radius, density, mass, material, sensor, groups, collides_with };
+                SpatialPart::Cone(part)
+            }
+            SpatialShape::HalfSpace(plane) => {
+                let (normal, offset) = (spatial_before_normalization(plane.normal()), plane.offset());
+                SpatialPart::HalfSpace(HalfSpacePart { normal, offset, material, sensor, groups, collides_with })
+            }
+            SpatialShape::Facet(_) => return None,
+        })
+    }
+
+    fn bounds(shape: &SpatialShape) -> Option<Bounds<DVec3>> {
+        shape.bounds(&Pose::<Self>::default())
+    }
+
+    fn inertia(entry: &InertiaEntry) -> SymmetricTensor {
+        (*entry).into()
+    }
+
+    fn inertia_mistake(entry: &InertiaEntry) -> Option<(String, String)> {
+        // Any mass will do to look at the moments.
+        let mistake = MassProperties::try_given(1.0, DVec3::ZERO, (*entry).into()).err()?;
+        Some(("is that of no body".to_owned(), mistake.to_string()))
+    }
+
+    fn inertia_entry(inertia: SymmetricTensor) -> InertiaEntry {
+        inertia.into()
+    }
+
+    fn mass_mistake(of: &MassProperties<Self>) -> Option<String> {
+        MassProperties::try_given(of.mass, of.centre, of.inertia).err().map(|error| error.to_string())
+    }
+
+    fn design_rotation(body: &BodyEntry<Self>) -> SpatialRotation {
+        rotation_of(body.orientation.as_ref()).unwrap_or_default()
+    }
+
+    fn rotation_mistake(body: &BodyEntry<Self>) -> Option<(&'static str, &'static str)> {
+        let is_wrong = rotation_of(body.orientation.as_ref()).is_none();
+        is_wrong.then_some(("orientation", "an axis or the quaternion is zero"))
+    }
+
+    fn write_rotation(body: &mut BodyEntry<Self>, rotation: SpatialRotation) {
+        body.orientation = (rotation != SpatialRotation::IDENTITY).then(|| written(&rotation));
+    }
+
+    fn random_turn(most_degrees: f64, mut draw: impl FnMut() -> f64) -> DVec3 {
+        let (x, y, z) = (draw(), draw(), draw());
+        DVec3::new(x, y, z) * most_degrees
+    }
+
+    fn displace(body: &mut BodyEntry<Self>, offset: DVec3, degrees: DVec3) {
+        body.at += offset;
+        if degrees != DVec3::ZERO {
+            let turn = DVec3::new(degrees.x.to_radians(), degrees.y.to_radians(), degrees.z.to_radians());
+            let rotation = Self::design_rotation(body).turned(turn);
+            Self::write_rotation(body, rotation);
+        }
+    }
+
+    fn keyframes(_: &BodyEntry<Self>) -> &[Keyframe] {
+        &[]
+    }
+
+    fn insert_keyframes(_: &BodyEntry<Self>, _: &mut EntityWorldMut) {}
+
+    fn write_keyframes(_: &EntityRef, _: &mut BodyEntry<Self>) {}
+
+    fn joint(kind: &SpatialJointKind, [a, b]: [DVec3; 2]) -> tumble_sim::SpatialJointKind {
+        match *kind {
+            SpatialJointKind::Spherical => tumble_sim::SpatialJointKind::Spherical,
+            SpatialJointKind::Revolute { axis } => tumble_sim::SpatialJointKind::Revolute { axis },
+            SpatialJointKind::Distance { length } => {
+                tumble_sim::SpatialJointKind::Distance { length: length.unwrap_or_else(|| a.distance(b)) }
+            }
+            SpatialJointKind::Fixed => tumble_sim::SpatialJointKind::Fixed,
+            SpatialJointKind::Prismatic { axis } => tumble_sim::SpatialJointKind::Prismatic { axis },
+        }
+    }
+
+    fn joint_entry(kind: &tumble_sim::SpatialJointKind) -> SpatialJointKind {
+        match *kind {
+            tumble_sim::SpatialJointKind::Spherical => SpatialJointKind::Spherical,
+            tumble_sim::SpatialJointKind::Revolute { axis } => SpatialJointKind::Revolute { axis },
+            tumble_sim::SpatialJointKind::Distance { length } => SpatialJointKind::Distance { length: Some(length) },
+            tumble_sim::SpatialJointKind::Fixed => SpatialJointKind::Fixed,
+            tumble_sim::SpatialJointKind::Prismatic { axis } => SpatialJointKind::Prismatic { axis },
+        }
+    }
+
+    fn angular_claim(claim: &VectorExpectation<Self>) -> AngularClaim<'_> {
+        AngularClaim::Vector(claim)
+    }
+
+    fn measured(angular: DVec3) -> Measured {
+        Measured::of_vector(angular)
+    }
+
+    fn shown_torque(torque: DVec3) -> f64 {
+        torque.length()
+    }
+
+    fn in_space(rotation: &SpatialRotation) -> Option<SpatialRotation> {
+        Some(*rotation)
+    }
+
+    fn orientation_between(from: &DQuat, to: &DQuat, share: f64) -> DQuat {
+        let (from, to) = (Self::rotation(from), Self::rotation(to));
+        from.turned(from.turn_to(&to).rotation_vector() * share).quaternion()
+    }
+
+    fn joint_gap(kind: &SpatialJointKind, between: DVec3, rotation_of_a: &SpatialRotation) -> f64 {
+        match *kind {
+            SpatialJointKind::Spherical | SpatialJointKind::Revolute { .. } | SpatialJointKind::Fixed => {
+                between.length()
+            }
+            SpatialJointKind::Distance { length } => length.map_or(0.0, |length| (between.length() - length).abs()),
+            SpatialJointKind::Prismatic { axis } => {
+                rotation_of_a.rotate(axis).normalize_or_zero().cross(between).length()
+            }
+        }
+    }
+
+    fn joint_axis(kind: &SpatialJointKind) -> Option<DVec3> {
+        match kind {
+            SpatialJointKind::Revolute { axis } | SpatialJointKind::Prismatic { axis } => Some(*axis),
+            _ => None,
+        }
+    }
+}
+
+/// The rotation of an entry; `None` for one that means nothing.
+fn rotation_of(entry: Option<&OrientationEntry>) -> Option<SpatialRotation> {
+    entry.map_or(Some(SpatialRotation::IDENTITY), OrientationEntry::rotation)
+}
+
+/// The entry of a rotation, which becomes that rotation to the last bit where one can be found.
+fn written(rotation: &SpatialRotation) -> OrientationEntry {
+    let [x, y, z, w] = quaternion_before_normalization(rotation.quaternion()).to_array();
+    OrientationEntry::Quaternion(x, y, z, w)
+}
+
+fn facets(mesh: &TriangleMesh) -> Vec<SpatialShape> {
+    mesh.facets().map(SpatialShape::from).collect()
+}
+
+/// The ground over a grid in the plane of x and z; its cells are cut along the diagonal from small x and z to large ones.
+fn height_field(part: &HeightFieldPart) -> Result<TriangleMesh, PartError> {
+    let columns = part.heights.first().map_or(0, Vec::len);
+    let odd = part.heights.iter().enumerate().find(|(_, row)| row.len() != columns);
+    if let Some((row, heights)) = odd {
+        return Err(PartError::Rows { row, count: heights.len(), first: columns });
+    }
+    let (along_x, along_z) = part.spacing;
+    let rows = part.heights.iter().enumerate();
+    let points = rows.flat_map(|(row, heights)| {
+        heights
+            .iter()
+            .enumerate()
+            .map(move |(column, &height)| DVec3::new(column as f64 * along_x, height, row as f64 * along_z))
+    });
+    let points: Vec<DVec3> = points.collect();
+    let corner = |row: usize, column: usize| (row * columns + column) as u32;
+    let mut triangles = Vec::new();
+    for row in 1..part.heights.len() {
+        for column in 1..columns {
+            let (near, far) = (corner(row - 1, column - 1), corner(row, column));
+            // Counter-clockwise seen from above, where x points to the right and z towards the viewer.
+            triangles.push([near, far, corner(row - 1, column)]);
+            triangles.push([near, corner(row, column - 1), far]);
+        }
+    }
+    Ok(TriangleMesh::try_new(points, triangles, part.thickness)?)
+}
