@@ -8,7 +8,8 @@ use tumble_math::Linear;
 use tumble_sim::{Anchor, BodyIndex, BodyTable, Clock, Joint, JointMotion, JointProblem, JointTable};
 
 use crate::dim::RecordDim;
-use crate::recording::{AnchorRecord, JointForce, JointRecord, Sample};
+use crate::recording::{JointForce, JointRecord, Sample};
+use crate::springs::recorded_anchor;
 
 /// The joints that are in the world, in the order of their table.
 #[derive(Debug, Default)]
@@ -42,10 +43,7 @@ impl JointLog {
         {
             return;
         }
-        let end = |anchor: &Anchor<D::Vector>| match *anchor {
-            Anchor::World(point) => Some(AnchorRecord { body: None, point }),
-            Anchor::Body(entity, point) => body_of(entity).map(|body| AnchorRecord { body: Some(body), point }),
-        };
+        let end = |anchor: &Anchor<D::Vector>| recorded_anchor(anchor, &body_of);
         let rank = |anchor: &Anchor<D::Vector>| match *anchor {
             Anchor::World(_) => world.resource::<BodyTable>().entries().len() as u32,
             Anchor::Body(entity, _) => world.get::<BodyIndex>(entity).map_or(u32::MAX, |index| index.0),

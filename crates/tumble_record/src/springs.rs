@@ -6,6 +6,17 @@ use tumble_sim::{Anchor, Spring};
 use crate::dim::RecordDim;
 use crate::recording::{AnchorRecord, SpringRecord};
 
+/// An anchor as it is recorded, given the index of each recorded body; nothing for one of another body.
+pub fn recorded_anchor<D: RecordDim>(
+    anchor: &Anchor<D::Vector>,
+    body_of: impl Fn(Entity) -> Option<usize>,
+) -> Option<AnchorRecord<D>> {
+    match *anchor {
+        Anchor::World(point) => Some(AnchorRecord { body: None, point }),
+        Anchor::Body(entity, point) => body_of(entity).map(|body| AnchorRecord { body: Some(body), point }),
+    }
+}
+
 /// The springs that are in the world, and where each stands in the recording.
 #[derive(Debug, Default)]
 pub struct SpringLog {
@@ -24,10 +35,7 @@ impl SpringLog {
         if self.present.iter().map(|(entity, _)| *entity).eq(springs.clone().map(|(entity, _)| entity)) {
             return;
         }
-        let end = |anchor: &Anchor<D::Vector>| match *anchor {
-            Anchor::World(point) => Some(AnchorRecord { body: None, point }),
-            Anchor::Body(entity, point) => body_of(entity).map(|body| AnchorRecord { body: Some(body), point }),
-        };
+        let end = |anchor: &Anchor<D::Vector>| recorded_anchor(anchor, &body_of);
         let before = std::mem::take(&mut self.present);
         for (entity, spring) in springs {
             let known = before.iter().find(|(known, _)| *known == entity).map(|(_, index)| *index);

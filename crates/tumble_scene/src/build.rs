@@ -211,7 +211,7 @@ fn add_materials<D: SceneDim>(
 }
 
 fn material_of<'a, D: SceneDim>(part: &'a D::Part, body: &'a BodyEntry<D>) -> &'a str {
-    part.material().or(body.material.as_deref()).unwrap_or(DEFAULT_MATERIAL)
+    part.shared().material.or(body.material.as_deref()).unwrap_or(DEFAULT_MATERIAL)
 }
 
 /// Bits of the groups that a scene names, in alphabetical order.
@@ -229,7 +229,7 @@ impl<'a> GroupBits<'a> {
             add(Some(&body.body.groups));
             add(Some(&body.body.collides_with));
             for part in &body.body.parts {
-                let (groups, collides_with) = part.groups();
+                let (groups, collides_with) = part.shared().groups;
                 add(groups);
                 add(collides_with);
             }
@@ -274,12 +274,12 @@ fn add_body<D: SceneDim>(
     for part in &body.parts {
         let shapes = D::shapes(part).map_err(|source| BuildError::Shape { body: body.name.clone(), source })?;
         let amount = amount(part);
-        let (member_of, accepts) = part.groups();
+        let (member_of, accepts) = part.shared().groups;
         let groups = tumble_sim::Groups {
             member_of: groups.bits(member_of.unwrap_or(&body.groups)),
             accepts: groups.bits(accepts.unwrap_or(&body.collides_with)),
         };
-        let response = if part.is_sensor() { Response::Sensor } else { Response::Solid };
+        let response = if part.shared().sensor { Response::Sensor } else { Response::Solid };
         let material = materials.get(material_of::<D>(part, body)).copied().unwrap_or_default();
         for shape in shapes {
             simulation.attach(entity, Part::new(shape, amount).material(material).groups(groups).response(response));

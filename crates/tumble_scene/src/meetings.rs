@@ -65,10 +65,10 @@ impl SurfaceKind<'_> {
 fn surfaces<D: SceneDim>(scene: &Scene<D>) -> Vec<SurfaceKind<'_>> {
     let mut kinds: Vec<SurfaceKind> = Vec::new();
     for (index, body) in scene.bodies.iter().enumerate() {
-        for part in scene.parts_of(body).filter(|part| !part.is_sensor()) {
-            let material = part.material().or(body.material.as_deref()).unwrap_or(DEFAULT_MATERIAL);
+        for part in scene.parts_of(body).filter(|part| !part.shared().sensor) {
+            let material = part.shared().material.or(body.material.as_deref()).unwrap_or(DEFAULT_MATERIAL);
             let is_dynamic = body.kind == BodyKind::Dynamic;
-            let (member_of, accepts) = part.groups();
+            let (member_of, accepts) = part.shared().groups;
             let member_of = member_of.unwrap_or(&body.groups);
             let accepts = accepts.unwrap_or(&body.collides_with);
             let is_same = |kind: &&mut SurfaceKind| {

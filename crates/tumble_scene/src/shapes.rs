@@ -27,7 +27,7 @@ pub fn part_mass<D: SceneDim>(part: &D::Part) -> Option<MassProperties<D>> {
 
 /// How much of a part there is.
 pub(crate) fn amount(part: &impl PartEntry) -> Amount {
-    match part.density_and_mass() {
+    match part.shared().density_and_mass {
         (_, Some(mass)) => Amount::Mass(mass),
         (density, None) => Amount::Density(density.unwrap_or(1.0)),
     }

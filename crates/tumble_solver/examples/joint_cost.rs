@@ -2,7 +2,8 @@
 //!
 //! `cargo run --release -p tumble_solver --example joint_cost`
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/all/common/mod.rs"]
+#[allow(dead_code, reason = "an example uses a part of it")]
 mod common;
 
 use std::time::Instant;

@@ -1,6 +1,6 @@
 //! The quantities that channels can show, with their names.
 
-use crate::dim::Home;
+use crate::dim::Home::{self, Both, Plane, Space};
 
 /// A quantity of the whole world, from the audit: one value per step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,21 +90,6 @@ pub enum JointQuantity {
     Torque,
 }
 
-/// What a channel says about a quantity.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Entry<Q> {
-    /// The quantity.
-    pub quantity: Q,
-    /// Its name on the command line.
-    pub name: &'static str,
-    /// What it is, in words.
-    pub title: &'static str,
-    /// Its unit; `1` for counts.
-    pub unit: &'static str,
-    /// Where it is at home.
-    pub home: Home,
-}
-
 /// What the lists say about a quantity, whatever it belongs to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Description {
@@ -118,207 +103,113 @@ pub(super) struct Description {
     pub home: Home,
 }
 
+/// A quantity and what a channel says about it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry<Q> {
+    /// The quantity.
+    pub quantity: Q,
+    /// What is said about it.
+    pub description: Description,
+}
+
+impl<Q> Entry<Q> {
+    const fn of(quantity: Q, name: &'static str, title: &'static str, unit: &'static str, home: Home) -> Self {
+        Self { quantity, description: Description { name, title, unit, home } }
+    }
+}
+
 /// Finds a quantity in its list.
 pub(super) fn describe<Q: Copy + PartialEq>(list: &[Entry<Q>], quantity: Q) -> Description {
-    let entry = list.iter().find(|entry| entry.quantity == quantity).expect("the lists have every quantity");
-    Description { name: entry.name, title: entry.title, unit: entry.unit, home: entry.home }
+    list.iter().find(|entry| entry.quantity == quantity).expect("the lists have every quantity").description
 }
 
 /// Finds the quantity of a name in a list.
 pub(super) fn named<Q: Copy>(list: &[Entry<Q>], name: &str) -> Option<Q> {
-    list.iter().find(|entry| entry.name == name).map(|entry| entry.quantity)
+    list.iter().find(|entry| entry.description.name == name).map(|entry| entry.quantity)
 }
 
 /// What channels say about the quantities of a joint.
 pub(super) const JOINT_QUANTITIES: [Entry<JointQuantity>; 5] = [
-    Entry {
-        quantity: JointQuantity::Force,
-        name: "joint_force",
-        title: "force of the joint",
-        unit: "N",
-        home: Home::Both,
-    },
-    Entry {
-        quantity: JointQuantity::ForceX,
-        name: "joint_force_x",
-        title: "force of the joint along x",
-        unit: "N",
-        home: Home::Both,
-    },
-    Entry {
-        quantity: JointQuantity::ForceY,
-        name: "joint_force_y",
-        title: "force of the joint along y",
-        unit: "N",
-        home: Home::Both,
-    },
-    Entry {
-        quantity: JointQuantity::ForceZ,
-        name: "joint_force_z",
-        title: "force of the joint along z",
-        unit: "N",
-        home: Home::Space,
-    },
-    Entry {
-        quantity: JointQuantity::Torque,
-        name: "joint_torque",
-        title: "torque of the joint",
-        unit: "N·m",
-        home: Home::Both,
-    },
+    Entry::of(JointQuantity::Force, "joint_force", "force of the joint", "N", Both),
+    Entry::of(JointQuantity::ForceX, "joint_force_x", "force of the joint along x", "N", Both),
+    Entry::of(JointQuantity::ForceY, "joint_force_y", "force of the joint along y", "N", Both),
+    Entry::of(JointQuantity::ForceZ, "joint_force_z", "force of the joint along z", "N", Space),
+    Entry::of(JointQuantity::Torque, "joint_torque", "torque of the joint", "N·m", Both),
 ];
 
 /// What channels say about the quantities of the world.
 pub(super) const WORLD_QUANTITIES: [Entry<WorldQuantity>; 14] = [
-    Entry { quantity: WorldQuantity::Kinetic, name: "kinetic", title: "kinetic energy", unit: "J", home: Home::Both },
-    Entry {
-        quantity: WorldQuantity::Potential,
-        name: "potential",
-        title: "potential energy",
-        unit: "J",
-        home: Home::Both,
-    },
-    Entry { quantity: WorldQuantity::Total, name: "total", title: "total energy", unit: "J", home: Home::Both },
-    Entry {
-        quantity: WorldQuantity::MomentumX,
-        name: "momentum_x",
-        title: "momentum along x",
-        unit: "kg·m/s",
-        home: Home::Both,
-    },
-    Entry {
-        quantity: WorldQuantity::MomentumY,
-        name: "momentum_y",
-        title: "momentum along y",
-        unit: "kg·m/s",
-        home: Home::Both,
-    },
-    Entry {
-        quantity: WorldQuantity::MomentumZ,
-        name: "momentum_z",
-        title: "momentum along z",
-        unit: "kg·m/s",
-        home: Home::Space,
-    },
-    Entry {
-        quantity: WorldQuantity::AngularMomentum,
-        name: "angular_momentum",
-        title: "angular momentum about the origin",
-        unit: "kg·m²/s",
-        home: Home::Plane,
-    },
-    Entry {
-        quantity: WorldQuantity::AngularMomentumX,
-        name: "angular_momentum_x",
-        title: "angular momentum about the x axis",
-        unit: "kg·m²/s",
-        home: Home::Space,
-    },
-    Entry {
-        quantity: WorldQuantity::AngularMomentumY,
-        name: "angular_momentum_y",
-        title: "angular momentum about the y axis",
-        unit: "kg·m²/s",
-        home: Home::Space,
-    },
-    Entry {
-        quantity: WorldQuantity::AngularMomentumZ,
-        name: "angular_momentum_z",
-        title: "angular momentum about the z axis",
-        unit: "kg·m²/s",
-        home: Home::Space,
-    },
-    Entry {
-        quantity: WorldQuantity::DeepestOverlap,
-        name: "deepest_overlap",
-        title: "deepest overlap",
-        unit: "m",
-        home: Home::Both,
-    },
-    Entry {
-        quantity: WorldQuantity::Contacts,
-        name: "contacts",
-        title: "touching points",
-        unit: "1",
-        home: Home::Both,
-    },
-    Entry {
-        quantity: WorldQuantity::Iterations,
-        name: "iterations",
-        title: "solver iterations",
-        unit: "1",
-        home: Home::Both,
-    },
-    Entry {
-        quantity: WorldQuantity::Residual,
-        name: "residual",
-        title: "solver residual",
-        unit: "1",
-        home: Home::Both,
-    },
+    Entry::of(WorldQuantity::Kinetic, "kinetic", "kinetic energy", "J", Both),
+    Entry::of(WorldQuantity::Potential, "potential", "potential energy", "J", Both),
+    Entry::of(WorldQuantity::Total, "total", "total energy", "J", Both),
+    Entry::of(WorldQuantity::MomentumX, "momentum_x", "momentum along x", "kg·m/s", Both),
+    Entry::of(WorldQuantity::MomentumY, "momentum_y", "momentum along y", "kg·m/s", Both),
+    Entry::of(WorldQuantity::MomentumZ, "momentum_z", "momentum along z", "kg·m/s", Space),
+    Entry::of(
+        WorldQuantity::AngularMomentum,
+        "angular_momentum",
+        "angular momentum about the origin",
+        "kg·m²/s",
+        Plane,
+    ),
+    Entry::of(
+        WorldQuantity::AngularMomentumX,
+        "angular_momentum_x",
+        "angular momentum about the x axis",
+        "kg·m²/s",
+        Space,
+    ),
+    Entry::of(
+        WorldQuantity::AngularMomentumY,
+        "angular_momentum_y",
+        "angular momentum about the y axis",
+        "kg·m²/s",
+        Space,
+    ),
+    Entry::of(
+        WorldQuantity::AngularMomentumZ,
+        "angular_momentum_z",
+        "angular momentum about the z axis",
+        "kg·m²/s",
+        Space,
+    ),
+    Entry::of(WorldQuantity::DeepestOverlap, "deepest_overlap", "deepest overlap", "m", Both),
+    Entry::of(WorldQuantity::Contacts, "contacts", "touching points", "1", Both),
+    Entry::of(WorldQuantity::Iterations, "iterations", "solver iterations", "1", Both),
+    Entry::of(WorldQuantity::Residual, "residual", "solver residual", "1", Both),
 ];
 
 /// What channels say about the quantities of a body.
 pub(super) const BODY_QUANTITIES: [Entry<BodyQuantity>; 16] = [
-    Entry { quantity: BodyQuantity::X, name: "x", title: "x of the centre of mass", unit: "m", home: Home::Both },
-    Entry { quantity: BodyQuantity::Y, name: "y", title: "y of the centre of mass", unit: "m", home: Home::Both },
-    Entry { quantity: BodyQuantity::Z, name: "z", title: "z of the centre of mass", unit: "m", home: Home::Space },
-    Entry { quantity: BodyQuantity::Angle, name: "angle", title: "angle", unit: "rad", home: Home::Plane },
-    Entry { quantity: BodyQuantity::Vx, name: "vx", title: "velocity along x", unit: "m/s", home: Home::Both },
-    Entry { quantity: BodyQuantity::Vy, name: "vy", title: "velocity along y", unit: "m/s", home: Home::Both },
-    Entry { quantity: BodyQuantity::Vz, name: "vz", title: "velocity along z", unit: "m/s", home: Home::Space },
-    Entry { quantity: BodyQuantity::Omega, name: "omega", title: "angular velocity", unit: "rad/s", home: Home::Plane },
-    Entry {
-        quantity: BodyQuantity::Wx,
-        name: "wx",
-        title: "angular velocity about x",
-        unit: "rad/s",
-        home: Home::Space,
-    },
-    Entry {
-        quantity: BodyQuantity::Wy,
-        name: "wy",
-        title: "angular velocity about y",
-        unit: "rad/s",
-        home: Home::Space,
-    },
-    Entry {
-        quantity: BodyQuantity::Wz,
-        name: "wz",
-        title: "angular velocity about z",
-        unit: "rad/s",
-        home: Home::Space,
-    },
-    Entry { quantity: BodyQuantity::Speed, name: "speed", title: "speed", unit: "m/s", home: Home::Both },
-    Entry { quantity: BodyQuantity::Kinetic, name: "kinetic", title: "kinetic energy", unit: "J", home: Home::Both },
-    Entry {
-        quantity: BodyQuantity::NormalForce,
-        name: "normal_force",
-        title: "normal force",
-        unit: "N",
-        home: Home::Both,
-    },
-    Entry {
-        quantity: BodyQuantity::FrictionForce,
-        name: "friction_force",
-        title: "friction force",
-        unit: "N",
-        home: Home::Both,
-    },
-    Entry { quantity: BodyQuantity::Contacts, name: "contacts", title: "touching points", unit: "1", home: Home::Both },
+    Entry::of(BodyQuantity::X, "x", "x of the centre of mass", "m", Both),
+    Entry::of(BodyQuantity::Y, "y", "y of the centre of mass", "m", Both),
+    Entry::of(BodyQuantity::Z, "z", "z of the centre of mass", "m", Space),
+    Entry::of(BodyQuantity::Angle, "angle", "angle", "rad", Plane),
+    Entry::of(BodyQuantity::Vx, "vx", "velocity along x", "m/s", Both),
+    Entry::of(BodyQuantity::Vy, "vy", "velocity along y", "m/s", Both),
+    Entry::of(BodyQuantity::Vz, "vz", "velocity along z", "m/s", Space),
+    Entry::of(BodyQuantity::Omega, "omega", "angular velocity", "rad/s", Plane),
+    Entry::of(BodyQuantity::Wx, "wx", "angular velocity about x", "rad/s", Space),
+    Entry::of(BodyQuantity::Wy, "wy", "angular velocity about y", "rad/s", Space),
+    Entry::of(BodyQuantity::Wz, "wz", "angular velocity about z", "rad/s", Space),
+    Entry::of(BodyQuantity::Speed, "speed", "speed", "m/s", Both),
+    Entry::of(BodyQuantity::Kinetic, "kinetic", "kinetic energy", "J", Both),
+    Entry::of(BodyQuantity::NormalForce, "normal_force", "normal force", "N", Both),
+    Entry::of(BodyQuantity::FrictionForce, "friction_force", "friction force", "N", Both),
+    Entry::of(BodyQuantity::Contacts, "contacts", "touching points", "1", Both),
 ];
 
 /// Returns the names of the quantities of the world.
 pub fn world_names() -> Vec<&'static str> {
-    WORLD_QUANTITIES.iter().map(|entry| entry.name).collect()
+    WORLD_QUANTITIES.iter().map(|entry| entry.description.name).collect()
 }
 
 /// Returns the names of the quantities of a body.
 pub fn body_quantity_names() -> Vec<&'static str> {
-    BODY_QUANTITIES.iter().map(|entry| entry.name).collect()
+    BODY_QUANTITIES.iter().map(|entry| entry.description.name).collect()
 }
 
 /// Returns the names of the quantities of a joint.
 pub fn joint_quantity_names() -> Vec<&'static str> {
-    JOINT_QUANTITIES.iter().map(|entry| entry.name).collect()
+    JOINT_QUANTITIES.iter().map(|entry| entry.description.name).collect()
 }

@@ -38,5 +38,21 @@ class Pen {
     }
     context.restore();
   }
-}
 
+  /** Where bodies were in the last two seconds. */
+  drawTrails(time) {
+    const { context } = this, marks = 60, span = 2, past = [];
+    for (let i = marks; i >= 0; i--) past.push(posesAt(Math.max(firstTime, time - (span * i) / marks)));
+    context.lineWidth = 1.5;
+    context.globalAlpha = .6;
+    recording.bodies.forEach((body, index) => {
+      if (body.kind === "static") return;
+      context.strokeStyle = this.bodyColors[index];
+      context.beginPath();
+      const pixels = past.map((poses) => this.pixelOf(poses[index]));
+      pixels.filter((pixel) => pixel.every(Number.isFinite)).forEach((pixel) => context.lineTo(...pixel));
+      context.stroke();
+    });
+    context.globalAlpha = 1;
+  }
+}

@@ -173,6 +173,8 @@ class View extends Pen {
     return [this.width / 2 + (scale * dot(right, offset)) / depth, this.height / 2 - (scale * dot(above, offset)) / depth];
   }
 
+  pixelOf({ place }) { return this.toScreen(place); }
+
   line(...points) {
     const { context } = this, pixels = points.map((point) => this.toScreen(point));
     if (!pixels.flat().every(Number.isFinite)) return;
@@ -188,19 +190,6 @@ class View extends Pen {
     context.arc(...pixel, radius, 0, 7);
     context.fill();
     if (rim) context.stroke();
-  }
-
-  drawTrails(time) {
-    const { context } = this, marks = 60, span = 2, past = [];
-    for (let i = marks; i >= 0; i--) past.push(posesAt(Math.max(firstTime, time - (span * i) / marks)));
-    context.lineWidth = 1.6;
-    context.globalAlpha = .6;
-    recording.bodies.forEach((body, index) => {
-      if (body.kind === "static") return;
-      context.strokeStyle = this.bodyColors[index];
-      this.line(...past.map((poses) => poses[index].place).filter((place) => place.every(Number.isFinite)));
-    });
-    context.globalAlpha = 1;
   }
 
   /** Where a spring or a joint is held. */

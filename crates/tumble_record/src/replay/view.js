@@ -342,22 +342,7 @@ class View extends Pen {
     context.stroke();
   }
 
-  drawTrails(time) {
-    const { context } = this;
-    const marks = 60, span = 2;
-    const past = [];
-    for (let i = marks; i >= 0; i--) past.push(posesAt(Math.max(firstTime, time - (span * i) / marks)));
-    context.lineWidth = 1.5;
-    context.globalAlpha = .55;
-    recording.bodies.forEach((body, index) => {
-      if (body.kind === "static") return;
-      context.strokeStyle = this.bodyColors[index];
-      context.beginPath();
-      past.forEach((poses) => { if (Number.isFinite(poses[index].x)) context.lineTo(...this.toScreen(poses[index].x, poses[index].y)); });
-      context.stroke();
-    });
-    context.globalAlpha = 1;
-  }
+  pixelOf({ x, y }) { return this.toScreen(x, y); }
 
   drawNames() {
     const { context } = this;

@@ -23,6 +23,7 @@ mod force;
 mod joint;
 mod material;
 mod part;
+mod planar_part;
 mod scene;
 mod spatial_part;
 mod turn;
@@ -43,7 +44,8 @@ pub use expect::{
 pub use force::{AnchorEntry, Axes, ForceEntry, SpringEntry};
 pub use joint::{JointEntry, JointKind, JointKindEntry, SpatialJointKind};
 pub use material::{FrictionEntry, MaterialEntry, MaterialTable, PairEntry, Surface, Take};
-pub use part::{BoxPart, DiscPart, HalfPlanePart, Part, PartEntry, PolygonPart, RodPart};
+pub use part::{PartEntry, Shared};
+pub use planar_part::{BoxPart, DiscPart, HalfPlanePart, Part, PolygonPart, RodPart};
 pub use scene::{Integrator, Scene};
 pub use spatial_part::{
     CapsulePart, ConePart, CylinderPart, HalfSpacePart, HeightFieldPart, HullPart, MeshPart, SpatialBoxPart,

@@ -4,7 +4,8 @@ use glam::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Groups, OrientationEntry, PartEntry};
+use super::part::{PartEntry, Shared, part};
+use super::{Groups, OrientationEntry};
 
 /// A shape of a body. Its mass comes from `density` or `mass`; with neither, the density is 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -31,52 +32,6 @@ pub enum SpatialPart {
     HeightField(HeightFieldPart),
     /// All parts of a named list.
     List(String),
-}
-
-/// Declares a part with the fields that all of them have, after its own.
-macro_rules! part {
-    ($(#[$about:meta])* $name:ident [$($density:literal)?] { $($(#[$field_about:meta])* $field:ident: $type:ty,)* }) => {
-        $(#[$about])*
-        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-        #[serde(deny_unknown_fields)]
-        pub struct $name {
-            $($(#[$field_about])* pub $field: $type,)*
-            $(
-                #[doc = concat!("Mass per ", $density, ". Default 1, unless `mass` is given.")]
-                #[serde(default)]
-                pub density: Option<f64>,
-                /// Mass [kg], instead of a density.
-                #[serde(default)]
-                pub mass: Option<f64>,
-            )?
-            /// Material. Default that of the body.
-            #[serde(default)]
-            pub material: Option<String>,
-            /// Whether touching is only reported, without any response. Default false.
-            #[serde(default)]
-            pub sensor: bool,
-            /// Collision groups of this part. Default those of the body.
-            #[serde(default)]
-            pub groups: Option<Groups>,
-            /// Collision groups this part collides with. Default those of the body.
-            #[serde(default)]
-            pub collides_with: Option<Groups>,
-        }
-
-        impl $name {
-            /// The fields that all parts have.
-            fn shared(&self) -> Shared<'_> {
-                Shared {
-                    amount: part!(@amount self $($density)?),
-                    material: self.material.as_deref(),
-                    sensor: self.sensor,
-                    groups: (self.groups.as_ref(), self.collides_with.as_ref()),
-                }
-            }
-        }
-    };
-    (@amount $self:ident) => { (None, None) };
-    (@amount $self:ident $density:literal) => { ($self.density, $self.mass) };
 }
 
 part! {
@@ -231,16 +186,7 @@ fn up() -> DVec3 {
     DVec3::Y
 }
 
-/// The fields that all parts have.
-#[derive(Default)]
-struct Shared<'p> {
-    amount: (Option<f64>, Option<f64>),
-    material: Option<&'p str>,
-    sensor: bool,
-    groups: (Option<&'p Groups>, Option<&'p Groups>),
-}
-
-impl SpatialPart {
+impl PartEntry for SpatialPart {
     fn shared(&self) -> Shared<'_> {
         match self {
             Self::Sphere(part) => part.shared(),
@@ -255,24 +201,6 @@ impl SpatialPart {
             Self::HeightField(part) => part.shared(),
             Self::List(_) => Shared::default(),
         }
-    }
-}
-
-impl PartEntry for SpatialPart {
-    fn material(&self) -> Option<&str> {
-        self.shared().material
-    }
-
-    fn groups(&self) -> (Option<&Groups>, Option<&Groups>) {
-        self.shared().groups
-    }
-
-    fn is_sensor(&self) -> bool {
-        self.shared().sensor
-    }
-
-    fn density_and_mass(&self) -> (Option<f64>, Option<f64>) {
-        self.shared().amount
     }
 
     fn list(&self) -> Option<&str> {

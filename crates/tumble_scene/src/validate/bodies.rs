@@ -124,11 +124,11 @@ impl<D: SceneDim> Checker<'_, D> {
 
     /// Checks a part wherever it stands.
     fn part(&self, path: &ScenePath, part: &D::Part, found: &mut Findings) {
-        self.material(&path.field("material"), part.material(), found);
+        self.material(&path.field("material"), part.shared().material, found);
         if let Err(error) = D::shapes(part) {
             found.error(path, "this part has no proper shape", error.to_string());
         }
-        let (density, mass) = part.density_and_mass();
+        let (density, mass) = part.shared().density_and_mass;
         if let Some(density) = density {
             found.positive(&path.field("density"), "a density", density);
         }
@@ -169,7 +169,7 @@ impl<D: SceneDim> Checker<'_, D> {
     fn mass(&self, path: &ScenePath, body: &BodyEntry<D>, found: &mut Findings) {
         let parts = self.scene.flat_parts(body);
         let is_sound = parts.iter().all(|part| {
-            let (density, mass) = part.density_and_mass();
+            let (density, mass) = part.shared().density_and_mass;
             D::shapes(part).is_ok() && density.is_none_or(|density| density > 0.0) && mass.is_none_or(|mass| mass > 0.0)
         });
         let overrides_are_sound = body.mass.is_none_or(|mass| mass > 0.0)
@@ -334,7 +334,7 @@ fn all_groups<D: SceneDim>(scene: &Scene<D>) -> Vec<(ScenePath, &Groups)> {
 }
 
 fn groups_of_part<'p>(path: &ScenePath, part: &'p impl PartEntry) -> impl Iterator<Item = (ScenePath, &'p Groups)> {
-    let (groups, collides_with) = part.groups();
+    let (groups, collides_with) = part.shared().groups;
     let (in_groups, with_groups) = (path.field("groups"), path.field("collides_with"));
     [(in_groups, groups), (with_groups, collides_with)].into_iter().filter_map(|(path, groups)| Some((path, groups?)))
 }

@@ -7,6 +7,7 @@ use tumble_math::{Pose, Spatial};
 
 use super::SpatialShapeError;
 use super::axis::Axis;
+use super::error::positive_radius;
 use crate::MassProperties;
 
 /// All points within a radius of a straight line, filled.
@@ -19,12 +20,7 @@ pub struct Capsule {
 impl Capsule {
     /// A capsule around the line between two points [m], with a radius [m]. It reaches beyond both points by its radius.
     pub fn try_new(from: DVec3, to: DVec3, radius: f64) -> Result<Self, SpatialShapeError> {
-        if !radius.is_finite() {
-            return Err(SpatialShapeError::NotFinite);
-        }
-        if radius <= 0.0 {
-            return Err(SpatialShapeError::RadiusNotPositive { shape: "capsule", radius });
-        }
+        let radius = positive_radius(radius, "capsule")?;
         Ok(Self { axis: Axis::try_new(from, to, "capsule")?, radius })
     }
 

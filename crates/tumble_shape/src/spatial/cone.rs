@@ -7,6 +7,7 @@ use tumble_math::{Pose, Spatial};
 
 use super::SpatialShapeError;
 use super::axis::Axis;
+use super::error::positive_radius;
 use crate::MassProperties;
 
 /// A filled right circular cone.
@@ -19,12 +20,7 @@ pub struct Cone {
 impl Cone {
     /// A cone whose base is centred at one point [m] and whose tip is another [m], with a radius of the base [m].
     pub fn try_new(base: DVec3, tip: DVec3, radius: f64) -> Result<Self, SpatialShapeError> {
-        if !radius.is_finite() {
-            return Err(SpatialShapeError::NotFinite);
-        }
-        if radius <= 0.0 {
-            return Err(SpatialShapeError::RadiusNotPositive { shape: "cone", radius });
-        }
+        let radius = positive_radius(radius, "cone")?;
         Ok(Self { axis: Axis::try_new(base, tip, "cone")?, radius })
     }
 

@@ -7,6 +7,7 @@ use tumble_math::{Pose, Spatial};
 
 use super::SpatialShapeError;
 use super::axis::Axis;
+use super::error::positive_radius;
 use crate::MassProperties;
 
 /// A filled round cylinder with flat ends.
@@ -19,12 +20,7 @@ pub struct Cylinder {
 impl Cylinder {
     /// A cylinder whose flat ends are centred at two points [m], with a radius [m].
     pub fn try_new(from: DVec3, to: DVec3, radius: f64) -> Result<Self, SpatialShapeError> {
-        if !radius.is_finite() {
-            return Err(SpatialShapeError::NotFinite);
-        }
-        if radius <= 0.0 {
-            return Err(SpatialShapeError::RadiusNotPositive { shape: "cylinder", radius });
-        }
+        let radius = positive_radius(radius, "cylinder")?;
         Ok(Self { axis: Axis::try_new(from, to, "cylinder")?, radius })
     }
 

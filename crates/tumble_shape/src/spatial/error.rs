@@ -86,3 +86,12 @@ pub enum SpatialShapeError {
         tolerance: f64,
     },
 }
+
+/// Passes on a radius [m] that is positive; `shape` is named by the refusal.
+pub(super) fn positive_radius(radius: f64, shape: &'static str) -> Result<f64, SpatialShapeError> {
+    match radius {
+        _ if !radius.is_finite() => Err(SpatialShapeError::NotFinite),
+        _ if radius <= 0.0 => Err(SpatialShapeError::RadiusNotPositive { shape, radius }),
+        _ => Ok(radius),
+    }
+}

@@ -6,6 +6,7 @@ use glam::DVec3;
 use tumble_math::{Pose, Spatial, SymmetricTensor};
 
 use super::SpatialShapeError;
+use super::error::positive_radius;
 use crate::MassProperties;
 
 /// A filled ball.
@@ -18,13 +19,10 @@ pub struct Sphere {
 impl Sphere {
     /// A ball around a point [m] with a radius [m].
     pub fn try_new(centre: DVec3, radius: f64) -> Result<Self, SpatialShapeError> {
-        if !(centre.is_finite() && radius.is_finite()) {
+        if !centre.is_finite() {
             return Err(SpatialShapeError::NotFinite);
         }
-        if radius <= 0.0 {
-            return Err(SpatialShapeError::RadiusNotPositive { shape: "sphere", radius });
-        }
-        Ok(Self { centre, radius })
+        Ok(Self { centre, radius: positive_radius(radius, "sphere")? })
     }
 
     /// Its middle [m].

@@ -23,53 +23,36 @@ impl Event {
     }
 }
 
-/// Events whose first occurrences come strictly one after the other.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct OrderExpectation {
-    /// The events, first to last; at least two.
-    pub events: Vec<Event>,
-    /// Why this must be so. Default empty.
-    #[serde(default)]
-    pub because: String,
-    /// Contact models for which it is claimed. Default all.
-    #[serde(default)]
-    pub under: Vec<ContactModel>,
+expectation! {
+    /// Events whose first occurrences come strictly one after the other.
+    #[derive(Default)]
+    OrderExpectation {
+        /// The events, first to last; at least two.
+        events: Vec<Event>,
+    }
 }
 
-/// An event that happens at a time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct HappensExpectation {
-    /// The event.
-    pub event: Event,
-    /// Which occurrence is meant, counted from 1 [1]. Default 1.
-    #[serde(default = "default_occurrence")]
-    pub occurrence: u32,
-    /// When [s].
-    pub at: f64,
-    /// Largest difference [s].
-    pub within: f64,
-    /// Why this must be so. Default empty.
-    #[serde(default)]
-    pub because: String,
-    /// Contact models for which it is claimed. Default all.
-    #[serde(default)]
-    pub under: Vec<ContactModel>,
+expectation! {
+    /// An event that happens at a time.
+    HappensExpectation {
+        /// The event.
+        event: Event,
+        /// Which occurrence is meant, counted from 1 [1]. Default 1.
+        #[serde(default = "default_occurrence")]
+        occurrence: u32,
+        /// When [s].
+        at: f64,
+        /// Largest difference [s].
+        within: f64,
+    }
 }
 
-/// An event that does not happen in the whole run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct NeverExpectation {
-    /// The event.
-    pub event: Event,
-    /// Why this must be so. Default empty.
-    #[serde(default)]
-    pub because: String,
-    /// Contact models for which it is claimed. Default all.
-    #[serde(default)]
-    pub under: Vec<ContactModel>,
+expectation! {
+    /// An event that does not happen in the whole run.
+    NeverExpectation {
+        /// The event.
+        event: Event,
+    }
 }
 
 fn default_occurrence() -> u32 {

@@ -3,6 +3,45 @@
 //! Each says when, what and how closely, and `because` of what; `under` names the contact models for which it is claimed
 //! (default: all).
 
+/// Declares an expectation: its own fields, with those that say when at the place of `[when]`, and after them why and for which models.
+macro_rules! expectation {
+    (
+        $(#[$about:meta])*
+        $name:ident$(<$dialect:ident>)? {
+            $($(#[$field_about:meta])* $field:ident: $type:ty,)*
+            $([when] $($(#[$later_about:meta])* $later:ident: $later_type:ty,)*)?
+        }
+    ) => {
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(deny_unknown_fields)]
+        $(#[$about])*
+        pub struct $name$(<$dialect: Dialect = Planar>)? {
+            $($(#[$field_about])* pub $field: $type,)*
+            $(
+                /// When [s].
+                #[serde(default)]
+                pub at: Option<f64>,
+                /// Whether it holds throughout the run. Default false.
+                #[serde(default)]
+                pub always: bool,
+                /// When it begins to hold [s]. Default the start, if `until` is given.
+                #[serde(default)]
+                pub from: Option<f64>,
+                /// When it ceases to hold [s]. Default the end, if `from` is given.
+                #[serde(default)]
+                pub until: Option<f64>,
+                $($(#[$later_about])* pub $later: $later_type,)*
+            )?
+            /// Why this must be so. Default empty.
+            #[serde(default)]
+            pub because: String,
+            /// Contact models for which it is claimed. Default all.
+            #[serde(default)]
+            pub under: Vec<ContactModel>,
+        }
+    };
+}
+
 mod event;
 mod force;
 mod state;
@@ -110,6 +149,38 @@ impl When {
     }
 }
 
+/// Does the same with the claim of any expectation.
+macro_rules! each_claim {
+    ($expectation:expr, $e:ident => $do:expr) => {
+        match $expectation {
+            Self::Position($e) | Self::Velocity($e) => $do,
+            Self::X($e)
+            | Self::Y($e)
+            | Self::Z($e)
+            | Self::VelocityX($e)
+            | Self::VelocityY($e)
+            | Self::VelocityZ($e)
+            | Self::Speed($e)
+            | Self::TurnRate($e) => $do,
+            Self::Angle($e) => $do,
+            Self::AngularVelocity($e) => $do,
+            Self::Orientation($e) => $do,
+            Self::Tilt($e) => $do,
+            Self::AtRest($e) => $do,
+            Self::EnergyNeverRises($e) => $do,
+            Self::EnergyKept($e) | Self::MomentumKept($e) | Self::AngularMomentumKept($e) => $do,
+            Self::Depth($e) => $do,
+            Self::ContactForceSum($e) => $do,
+            Self::FrictionForce($e) => $do,
+            Self::JointForce($e) => $do,
+            Self::Order($e) => $do,
+            Self::Happens($e) => $do,
+            Self::Never($e) => $do,
+            Self::Fingerprint($e) => $do,
+        }
+    };
+}
+
 impl<D: Dialect> Expectation<D> {
     /// The variant's name, as it stands in a file.
     pub fn name(&self) -> &'static str {
@@ -146,62 +217,12 @@ impl<D: Dialect> Expectation<D> {
 
     /// What all claims have in common.
     pub fn claim(&self) -> &dyn Claim {
-        match self {
-            Self::Position(e) | Self::Velocity(e) => e,
-            Self::X(e)
-            | Self::Y(e)
-            | Self::Z(e)
-            | Self::VelocityX(e)
-            | Self::VelocityY(e)
-            | Self::VelocityZ(e)
-            | Self::Speed(e)
-            | Self::TurnRate(e) => e,
-            Self::Angle(e) => e,
-            Self::AngularVelocity(e) => e,
-            Self::Orientation(e) => e,
-            Self::Tilt(e) => e,
-            Self::AtRest(e) => e,
-            Self::EnergyNeverRises(e) => e,
-            Self::EnergyKept(e) | Self::MomentumKept(e) | Self::AngularMomentumKept(e) => e,
-            Self::Depth(e) => e,
-            Self::ContactForceSum(e) => e,
-            Self::FrictionForce(e) => e,
-            Self::JointForce(e) => e,
-            Self::Order(e) => e,
-            Self::Happens(e) => e,
-            Self::Never(e) => e,
-            Self::Fingerprint(e) => e,
-        }
+        each_claim!(self, e => e)
     }
 
     /// Claims it for every contact model, whatever the scene says.
     pub fn claim_under_all(&mut self) {
-        match self {
-            Self::Position(e) | Self::Velocity(e) => e.under.clear(),
-            Self::X(e)
-            | Self::Y(e)
-            | Self::Z(e)
-            | Self::VelocityX(e)
-            | Self::VelocityY(e)
-            | Self::VelocityZ(e)
-            | Self::Speed(e)
-            | Self::TurnRate(e) => e.under.clear(),
-            Self::Angle(e) => e.under.clear(),
-            Self::AngularVelocity(e) => e.claim_under_all(),
-            Self::Orientation(e) => e.under.clear(),
-            Self::Tilt(e) => e.under.clear(),
-            Self::AtRest(e) => e.under.clear(),
-            Self::EnergyNeverRises(e) => e.under.clear(),
-            Self::EnergyKept(e) | Self::MomentumKept(e) | Self::AngularMomentumKept(e) => e.under.clear(),
-            Self::Depth(e) => e.under.clear(),
-            Self::ContactForceSum(e) => e.under.clear(),
-            Self::FrictionForce(e) => e.under.clear(),
-            Self::JointForce(e) => e.under.clear(),
-            Self::Order(e) => e.under.clear(),
-            Self::Happens(e) => e.under.clear(),
-            Self::Never(e) => e.under.clear(),
-            Self::Fingerprint(e) => e.under.clear(),
-        }
+        each_claim!(self, e => e.claim_under_all());
     }
 
     /// Why it must be so, as written, and the contact models for which it is claimed (empty: all).

@@ -1,0 +1,8 @@
+//! The tests of `tumble_scene` as one program, which links once.
+
+mod check;
+mod materials;
+mod messages;
+mod overlap;
+mod robustness;
+mod round_trip;

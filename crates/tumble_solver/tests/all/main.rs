@@ -1,0 +1,7 @@
+//! The tests of `tumble_solver` as one program, which links once.
+
+mod common;
+mod joints;
+mod resting_lcp;
+mod spatial;
+mod velocity_lcp;
