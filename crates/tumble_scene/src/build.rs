@@ -12,6 +12,7 @@ use tumble_sim::{
     Pinned, Position, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings, StepError,
     VelocityLcpSettings,
 };
+use tumble_solver::soft_step::SoftSettings;
 use tumble_solver::{Surface, velocity_lcp};
 
 use crate::check::remember;
@@ -20,7 +21,7 @@ use crate::dim::{PartError, SceneDim};
 use crate::expand::ExpandedBody;
 use crate::format::{
     AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Groups, ImpulseEntry, Integrator, JointEntry, PartEntry,
-    PenaltyEntry, PenaltyLaw, RestitutionLaw, Scene, SpringEntry, VelocityLcpEntry, VelocitySolver,
+    PenaltyEntry, PenaltyLaw, RestitutionLaw, Scene, SoftStepEntry, SpringEntry, VelocityLcpEntry, VelocitySolver,
 };
 use crate::load::Loaded;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
@@ -136,7 +137,18 @@ fn settings<D: SceneDim>(scene: &Scene<D>) -> Settings<D> {
         penalty: penalty_settings(&scene.models.penalty, scene.length_scale),
         impulse: impulse_settings(&scene.models.impulse),
         velocity_lcp: velocity_settings(&scene.models.velocity_lcp),
+        soft_step: soft_settings(&scene.models.soft_step, scene.length_scale),
         ..Settings::weightless()
+    }
+}
+
+fn soft_settings(entry: &SoftStepEntry, length_scale: f64) -> SoftSettings {
+    let default = SoftSettings::default();
+    SoftSettings {
+        substeps: entry.substeps.unwrap_or(default.substeps),
+        frequency: entry.frequency.unwrap_or(default.frequency),
+        damping_ratio: entry.damping_ratio.unwrap_or(default.damping_ratio),
+        push_speed: entry.push_speed.unwrap_or(default.push_speed * length_scale),
     }
 }
 

@@ -21,6 +21,7 @@ use tumble_sim::{
     InertiaOverride, Joint, JointTable, LinearDrag, Lock, LockedAxes, MassOverride, MaterialId, Materials, Parts,
     PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings, StepError,
 };
+use tumble_solver::soft_step::SoftSettings;
 use tumble_solver::{Surface, velocity_lcp};
 
 use crate::check::Promises;
@@ -29,7 +30,7 @@ use crate::exact::before_shift;
 use crate::format::{
     AnchorEntry, Axes, Axis, BodyEntry, BodyKind, Drag, Expectation, ForceEntry, FrictionEntry, Groups, ImpulseEntry,
     Integrator, JointEntry, MaterialEntry, ModelEntries, PairEntry, PenaltyEntry, PenaltyLaw, RestitutionLaw, Scene,
-    SpringEntry, VelocityLcpEntry, VelocitySolver,
+    SoftStepEntry, SpringEntry, VelocityLcpEntry, VelocitySolver,
 };
 use crate::initial_overlaps;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
@@ -154,9 +155,20 @@ fn with_settings<D: SceneDim>(settings: &Settings<D>, origin: Option<&Scene<D>>)
                     velocity_lcp::Restitution::Newton => RestitutionLaw::Newton,
                 },
             },
+            soft_step: soft_entry(&settings.soft_step, settings.length_scale),
         },
         ..blank
     })
+}
+
+fn soft_entry(settings: &SoftSettings, length_scale: f64) -> SoftStepEntry {
+    let default = SoftSettings::default();
+    SoftStepEntry {
+        substeps: (settings.substeps != default.substeps).then_some(settings.substeps),
+        frequency: (settings.frequency != default.frequency).then_some(settings.frequency),
+        damping_ratio: (settings.damping_ratio != default.damping_ratio).then_some(settings.damping_ratio),
+        push_speed: (settings.push_speed != default.push_speed * length_scale).then_some(settings.push_speed),
+    }
 }
 
 fn penalty_entry(settings: &PenaltySettings, length_scale: f64) -> PenaltyEntry {

@@ -10,6 +10,7 @@ use tumble_math::Pose;
 use tumble_shape::{MassDim, MassProperties};
 use tumble_solver::SolverBody;
 use tumble_solver::joint::{JointEnds, JointError, JointRow};
+use tumble_solver::soft_step::SoftDim;
 
 use crate::body::InDim;
 use crate::engine::Engine;
@@ -37,7 +38,7 @@ pub struct ContactQuery<'a, D: Geometry> {
 }
 
 /// Shapes and contacts of a dimension.
-pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> {
+pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> + SoftDim {
     /// A shape.
     type Shape: Clone + Debug + PartialEq + Send + Sync + 'static;
     /// A box that turns with a shape.

@@ -31,6 +31,7 @@ pub(crate) enum Need {
     Velocity,
     ImpactTimes,
     Resting,
+    SoftStep,
     Joints,
     JointSprings,
     Ledger,
@@ -62,6 +63,10 @@ pub(crate) fn needs<D: Geometry>(world: &mut World) -> BTreeSet<Need> {
             need((contacts || joints) && settings.contact == ContactModel::RestingLcp, Need::Resting);
             need(contacts || joints, Need::Velocity);
             need(contacts && settings.time_of_impact, Need::ImpactTimes);
+            need(joints, Need::Joints);
+        }
+        (ContactModel::SoftStep, _) => {
+            need(true, Need::SoftStep);
             need(joints, Need::Joints);
         }
         (ContactModel::Penalty, law) => {

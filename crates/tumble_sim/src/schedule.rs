@@ -17,6 +17,7 @@
 //! | impulse | – | touching contacts, accumulated impulses | no gap closes beyond touch | colliding contacts, worst first |
 //! | resting LCP | forces at all resting points | what they leave of velocities | no gap closes beyond touch | colliding contacts, worst first |
 //! | velocity LCP | – | touching contacts, all at once | no gap closes beyond touch | colliding contacts with those that touch, all at once |
+//! | soft step | – | substeps: soft contacts, eight at a time; rebound | what they displaced | – |
 //! | *joints* | penalty: spring and damper | J v = 0 with the contacts | curvature, error | J v = 0 (ballistic) |
 
 use bevy_ecs::prelude::*;
@@ -25,7 +26,8 @@ use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleT
 use crate::body::follow_keyframes;
 use crate::contact::{
     apply_lecture_floor, apply_penalty_forces, apply_resting_forces, filter_positions, filter_velocities,
-    find_contacts, find_pairs, is_taken, look_for_impacts, resolve_impulses, sync_pairs,
+    find_contacts, find_pairs, is_taken, look_for_impacts, mend_soft_joints, resolve_impulses, sync_pairs,
+    take_soft_steps,
 };
 use crate::force::{
     apply_forces, apply_gravity, apply_linear_drag, apply_quadratic_drag, apply_scaled_gravity, apply_springs,
@@ -241,6 +243,10 @@ pub(crate) fn add_systems<D: Geometry>(need: Need, step: &mut Schedule, begin: &
             step.add_systems(look_for_impacts::<D>.in_set(Place::ImpactTimes))
         }
         Need::Resting => step.add_systems(apply_resting_forces::<D>.in_set(Place::ContactForces)),
+        Need::SoftStep => step.add_systems((
+            take_soft_steps::<D>.in_set(Place::Filter),
+            mend_soft_joints::<D>.in_set(Place::FilterPositions),
+        )),
         Need::Joints => {
             begin.add_systems(stop_joints::<D>.in_set(Place::StopJoints));
             step.add_systems((

@@ -2,6 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Linear, Planar};
+use tumble_solver::soft_step::SoftSettings;
 use tumble_solver::velocity_lcp::{Restitution, VelocitySettings, VelocitySolver};
 
 /// Where steps are cut at impacts, slower bounces are rest: what is left of the Zeno time 2 v/(g (1 − ε)) is then below 1e-9 s up to
@@ -32,11 +33,13 @@ pub enum ContactModel {
     RestingLcp,
     /// Velocity complementarity: all contacts at once, exact friction.
     VelocityLcp,
+    /// Soft contacts in substeps: for very many contacts.
+    SoftStep,
 }
 
 impl ContactModel {
     /// All models.
-    pub const ALL: [Self; 4] = [Self::Penalty, Self::Impulse, Self::RestingLcp, Self::VelocityLcp];
+    pub const ALL: [Self; 5] = [Self::Penalty, Self::Impulse, Self::RestingLcp, Self::VelocityLcp, Self::SoftStep];
 
     /// Its word on the command line and in outputs.
     pub fn word(self) -> &'static str {
@@ -45,6 +48,7 @@ impl ContactModel {
             Self::Impulse => "impulse",
             Self::RestingLcp => "resting-lcp",
             Self::VelocityLcp => "velocity-lcp",
+            Self::SoftStep => "soft-step",
         }
     }
 }
@@ -144,10 +148,10 @@ pub struct Settings<D: Dim = Planar> {
     /// Farthest travel within a step against which contacts are made beforehand [m]. Default 2 length scales. A body that
     /// moves further in a step is reported, and may pass through thin things.
     pub speculative_limit: Option<f64>,
-    /// How positions follow velocities.
+    /// How positions follow velocities. The soft-step model takes symplectic Euler's way in its substeps, whatever stands here.
     pub integrator: Integrator,
     /// Whether the step is cut at every impact, so that bounces happen at their times and not at ends of steps. Bodies then move
-    /// ballistically, whatever `integrator` says. The penalty model knows no impacts, and ignores it. Default false.
+    /// ballistically, whatever `integrator` says. The penalty and soft-step models cut no steps, and ignore it. Default false.
     pub time_of_impact: bool,
     /// Which law answers contacts.
     pub contact: ContactModel,
@@ -157,6 +161,8 @@ pub struct Settings<D: Dim = Planar> {
     pub impulse: ImpulseSettings,
     /// Settings of the velocity complementarity model.
     pub velocity_lcp: VelocityLcpSettings,
+    /// Settings of the soft-step model.
+    pub soft_step: SoftSettings,
 }
 
 impl<D: Dim> Settings<D> {
@@ -174,6 +180,7 @@ impl<D: Dim> Settings<D> {
             penalty: PenaltySettings::default(),
             impulse: ImpulseSettings::default(),
             velocity_lcp: VelocityLcpSettings::default(),
+            soft_step: SoftSettings::default(),
         }
     }
 
@@ -184,12 +191,16 @@ impl<D: Dim> Settings<D> {
 
     /// Whether steps are cut at impacts.
     pub fn cuts_at_impacts(&self) -> bool {
-        self.time_of_impact && self.contact != ContactModel::Penalty
+        self.time_of_impact && !matches!(self.contact, ContactModel::Penalty | ContactModel::SoftStep)
     }
 
-    /// How positions follow velocities, with what [`time_of_impact`](Self::time_of_impact) says.
+    /// How positions follow velocities, with what [`time_of_impact`](Self::time_of_impact) and the contact model say.
     pub fn moves_by(&self) -> Integrator {
-        if self.cuts_at_impacts() { Integrator::Ballistic } else { self.integrator }
+        match self.contact {
+            ContactModel::SoftStep => Integrator::SymplecticEuler,
+            _ if self.cuts_at_impacts() => Integrator::Ballistic,
+            _ => self.integrator,
+        }
     }
 
     /// Speed that gravity adds along a normal in half a step; 1e-10 length scales per second where steps are cut at impacts [m/s].

@@ -16,8 +16,8 @@ use crate::body::{
 };
 use crate::contact::{
     Colliders, ContactManifold, ContactMemory, ContactPair, ContactProblem, ContactReport, Detection, IgnoredPairs,
-    ImpactTimes, Materials, PairKey, Pass, PointMemory, PositionCorrections, PreviousEnds, RestingModel, Touch,
-    VelocityModel, prepare_colliders, renumber_pairs,
+    ImpactTimes, Materials, PairKey, Pass, PointMemory, PositionCorrections, PreviousEnds, RestingModel, SoftModel,
+    Touch, VelocityModel, prepare_colliders, renumber_pairs,
 };
 use crate::error::{StepError, UnknownBody};
 use crate::fault::Fault;
@@ -367,6 +367,7 @@ pub(crate) fn new_world<D: Geometry>(settings: Settings<D>) -> World {
     world.init_resource::<PreviousEnds<D>>();
     world.init_resource::<VelocityModel<D>>();
     world.init_resource::<RestingModel<D>>();
+    world.init_resource::<SoftModel<D>>();
     world.init_resource::<ImpactTimes<D>>();
     world.init_resource::<JointTable<D>>();
     world.init_resource::<JointProblem<D>>();

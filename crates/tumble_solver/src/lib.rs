@@ -9,6 +9,7 @@
 //! | one-by-one impulse | – | [`filter`]: touching contacts, accumulated impulses | [`impact`]: colliding contacts, worst first, repeatedly |
 //! | [`resting_lcp`] | normal acceleration ≥ 0, after all other forces | leftover velocity of points at rest | one by one |
 //! | [`velocity_lcp`] | – | all contacts of an island at once | all at once, by Poisson's or Newton's law |
+//! | [`soft_step`] | – | substeps of soft contacts, eight at a time | at the end of the substeps |
 //!
 //! [`joint`] holds joints beside them, as rows that are solved in one block. [`island`] finds what has to be solved together.
 //! [`position`] is the position filter of the impulse model: no gap closes beyond touch within a step.
@@ -26,6 +27,7 @@ pub mod position;
 mod report;
 pub mod resting_lcp;
 mod skyline;
+pub mod soft_step;
 pub mod velocity_lcp;
 
 pub use body::SolverBody;

@@ -15,11 +15,13 @@ pub enum ContactModel {
     RestingLcp,
     /// Impulses of all contacts together, with exact friction.
     VelocityLcp,
+    /// Soft contacts in substeps, for very many contacts: fast rather than exact.
+    SoftStep,
 }
 
 impl ContactModel {
     /// Every model, in the order of this file.
-    pub const ALL: [Self; 4] = [Self::Penalty, Self::Impulse, Self::RestingLcp, Self::VelocityLcp];
+    pub const ALL: [Self; 5] = [Self::Penalty, Self::Impulse, Self::RestingLcp, Self::VelocityLcp, Self::SoftStep];
 
     /// The word for the model on the command line.
     pub fn word(self) -> &'static str {
@@ -28,6 +30,7 @@ impl ContactModel {
             Self::Impulse => "impulse",
             Self::RestingLcp => "resting-lcp",
             Self::VelocityLcp => "velocity-lcp",
+            Self::SoftStep => "soft-step",
         }
     }
 
@@ -44,6 +47,7 @@ impl From<ContactModel> for tumble_sim::ContactModel {
             ContactModel::Impulse => Self::Impulse,
             ContactModel::RestingLcp => Self::RestingLcp,
             ContactModel::VelocityLcp => Self::VelocityLcp,
+            ContactModel::SoftStep => Self::SoftStep,
         }
     }
 }
@@ -55,6 +59,7 @@ impl From<tumble_sim::ContactModel> for ContactModel {
             tumble_sim::ContactModel::Impulse => Self::Impulse,
             tumble_sim::ContactModel::RestingLcp => Self::RestingLcp,
             tumble_sim::ContactModel::VelocityLcp => Self::VelocityLcp,
+            tumble_sim::ContactModel::SoftStep => Self::SoftStep,
         }
     }
 }
@@ -72,6 +77,9 @@ pub struct ModelEntries {
     /// Settings of the velocity complementarity model.
     #[serde(default)]
     pub velocity_lcp: VelocityLcpEntry,
+    /// Settings of the soft-step model.
+    #[serde(default)]
+    pub soft_step: SoftStepEntry,
 }
 
 /// Settings of the penalty model; absent ones take the model's defaults.
@@ -138,6 +146,24 @@ pub struct VelocityLcpEntry {
     /// Which law gives back speed. Default: Poisson.
     #[serde(default)]
     pub restitution: RestitutionLaw,
+}
+
+/// Settings of the soft-step model; absent ones take the model's defaults.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SoftStepEntry {
+    /// Substeps of a step [1]. Default 4.
+    #[serde(default)]
+    pub substeps: Option<u32>,
+    /// Frequency of the contact springs, twice as much against bodies that cannot move; at most a quarter of the substeps' own [Hz]. Default 30.
+    #[serde(default)]
+    pub frequency: Option<f64>,
+    /// Damping ratio of the contact springs [1]. Default 10.
+    #[serde(default)]
+    pub damping_ratio: Option<f64>,
+    /// Fastest push out of an overlap [m/s]. Default 3 length scales per second.
+    #[serde(default)]
+    pub push_speed: Option<f64>,
 }
 
 /// Solvers of the velocity complementarity model.

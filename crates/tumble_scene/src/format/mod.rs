@@ -31,8 +31,8 @@ mod turn;
 pub use body::{Axis, BodyEntry, BodyKind, Drag, Groups, Jitter, Keyframe, Repeat, RepeatGrid, RepeatLine};
 pub use coefficient::Coefficient;
 pub use contact::{
-    ContactModel, ImpulseEntry, ModelEntries, PenaltyEntry, PenaltyLaw, RestitutionLaw, VelocityLcpEntry,
-    VelocitySolver,
+    ContactModel, ImpulseEntry, ModelEntries, PenaltyEntry, PenaltyLaw, RestitutionLaw, SoftStepEntry,
+    VelocityLcpEntry, VelocitySolver,
 };
 pub use dimension::{Absent, AsCounts, Dialect, Dimension, Entry};
 pub use expect::{

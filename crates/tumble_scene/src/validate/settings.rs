@@ -68,4 +68,19 @@ fn models<D: Dialect>(scene: &Scene<D>, found: &mut Findings) {
     if let Some(tolerance) = impulse.colliding_tolerance {
         found.not_negative(&path.field("colliding_tolerance"), "the colliding tolerance", tolerance);
     }
+    let soft = &scene.models.soft_step;
+    let path = ScenePath::root().field("models").field("soft_step");
+    if soft.substeps == Some(0) {
+        found.error(&path.field("substeps"), "`substeps` must be at least 1", "a step consists of them");
+    }
+    let positive = [
+        ("frequency", "the frequency of soft contact", soft.frequency),
+        ("damping_ratio", "the damping ratio of soft contact", soft.damping_ratio),
+        ("push_speed", "the push speed of soft contact", soft.push_speed),
+    ];
+    for (field, what, value) in positive {
+        if let Some(value) = value {
+            found.positive(&path.field(field), what, value);
+        }
+    }
 }

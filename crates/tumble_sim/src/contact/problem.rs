@@ -185,10 +185,22 @@ impl<D: Geometry> ContactProblem<D> {
         }
     }
 
-    /// Gathers velocities and inverse masses of all bodies, and the world after them, which nothing moves.
-    pub(crate) fn gather_bodies(&mut self, bodies: &BodyQuery<D>, count: usize) {
+    /// Makes room for so many bodies, and the world after them, which nothing moves.
+    pub(super) fn begin_bodies(&mut self, count: usize) {
         self.bodies.resize_with(count + 1, SolverBody::default);
         self.bodies[count] = SolverBody::default();
+    }
+
+    /// Forgets all rows.
+    pub(super) fn forget_rows(&mut self) {
+        self.rows.clear();
+        self.sources.clear();
+        (self.touching, self.resting) = (0, 0);
+    }
+
+    /// Gathers velocities and inverse masses of all bodies, and the world after them, which nothing moves.
+    pub(crate) fn gather_bodies(&mut self, bodies: &BodyQuery<D>, count: usize) {
+        self.begin_bodies(count);
         for (index, velocity, spin, inverse_mass, inverse_inertia, orientation, ..) in bodies {
             self.bodies[index.0 as usize] = SolverBody {
                 velocity: velocity.0,

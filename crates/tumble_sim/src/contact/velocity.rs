@@ -26,7 +26,7 @@ use crate::{Clock, Settings};
 
 /// Displacements found by the position filter, for the positions that are about to be updated.
 #[derive(Resource, Debug)]
-pub struct PositionCorrections<D: Dim>(Displacements<D>);
+pub struct PositionCorrections<D: Dim>(pub(super) Displacements<D>);
 
 impl<D: Dim> Default for PositionCorrections<D> {
     fn default() -> Self {
