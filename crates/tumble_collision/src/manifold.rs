@@ -197,6 +197,16 @@ impl<V: Vector, const N: usize, M: Memory> Manifold<V, N, M> {
         self.count += 1;
     }
 
+    /// The same points at other places: `place` tells the point and its separation by number.
+    #[inline]
+    pub fn placed(&self, normal: V, mut place: impl FnMut(usize) -> (V, f64)) -> Self {
+        let mut placed = Self { normal, ..*self };
+        for (number, point) in placed.points[..self.count as usize].iter_mut().enumerate() {
+            (point.point, point.separation) = place(number);
+        }
+        placed
+    }
+
     /// The same manifold with something to remember.
     #[inline]
     pub(crate) fn remembering(self, memory: M) -> Self {

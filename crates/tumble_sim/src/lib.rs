@@ -28,8 +28,8 @@ pub use body::{
 };
 pub use clock::Clock;
 pub use contact::{
-    ContactManifold, ContactMemory, ContactPair, ContactReport, IgnoredPairs, Materials, PairKey, PointMemory, Touch,
-    TouchPhase,
+    ContactManifold, ContactMemory, ContactPair, ContactReport, IgnoredPairs, Materials, PairKey, PointMemory,
+    SoftModel, Touch, TouchPhase,
 };
 pub use engine::Engine;
 pub use error::{BodyError, StepError, UnknownBody};

@@ -180,6 +180,6 @@ fn help_and_version_are_there() {
         .tumble(["run", "--help"])
         .code(0)
         .says("friction_force")
-        .says("[possible values: penalty, impulse, resting-lcp, velocity-lcp]");
+        .says("[possible values: penalty, impulse, resting-lcp, velocity-lcp, soft-step]");
     bench.tumble(["--version"]).code(0).says("tumble 0.1.0");
 }

@@ -43,7 +43,7 @@ fn models_are_those_for_which_something_is_claimed() {
     let models: Vec<&str> = cells(&csv)[1..].iter().map(|row| row[0]).collect();
     assert_eq!(models, ["impulse", "resting-lcp"]);
     bench.write("silent.ron", "(format: 1, duration: 0.1, bodies: [(name: \"ball\", parts: [Disc(radius: 1)])])");
-    bench.tumble(["compare", "silent.ron", "--out", "here"]).code(0).says("–").says("4 runs");
+    bench.tumble(["compare", "silent.ron", "--out", "here"]).code(0).says("–").says("5 runs");
 }
 
 #[test]
@@ -150,8 +150,8 @@ fn models_that_the_scene_claims_nothing_for_are_named() {
     let bench = Bench::new();
     bench.write("falling.ron", FALLING.replace("because:", "under: [Impulse, RestingLcp], because:"));
     let compared = bench.tumble(["compare", "falling.ron"]).code(0);
-    let compared =
-        compared.says("left out, because the scene claims nothing for it: penalty, velocity-lcp (see --contact)");
+    let compared = compared
+        .says("left out, because the scene claims nothing for it: penalty, velocity-lcp, soft-step (see --contact)");
     assert_eq!(compared.stdout.matches("\npenalty").count(), 0, "{}", compared.stdout);
     let compared = bench.tumble(["compare", "falling.ron", "--contact", "penalty,impulse"]).code(0);
     assert!(!compared.stdout.contains("left out"), "{}", compared.stdout);

@@ -49,8 +49,11 @@ fn wrong_arguments_are_refused_by_name() {
         (&["test", "falling.ron", "--contact", "soft"], "possible values: penalty, impulse"),
         (&["compare"], "required arguments"),
         (&["compare", "missing.ron"], "cannot be read"),
-        (&["compare", "falling.ron", "--contact", "impulse,soft"], "penalty, impulse, resting-lcp, velocity-lcp"),
-        (&["compare", "falling.ron", "--reference", "best"], "penalty, impulse, resting-lcp, velocity-lcp"),
+        (
+            &["compare", "falling.ron", "--contact", "impulse,soft"],
+            "penalty, impulse, resting-lcp, velocity-lcp, soft-step",
+        ),
+        (&["compare", "falling.ron", "--reference", "best"], "penalty, impulse, resting-lcp, velocity-lcp, soft-step"),
         (&["compare", "falling.ron", "--dt", "0.01,0"], "must be positive"),
         (&["compare", "falling.ron", "--dt", "NaN"], "must be positive and finite"),
         (&["compare", "falling.ron", "--dt", "0.01,"], "must be a number of seconds"),

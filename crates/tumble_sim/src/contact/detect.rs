@@ -7,8 +7,9 @@ use tumble_collision::{BroadPhase, PairChanges, TurningBox};
 use tumble_math::{Dim, Linear, Pose};
 
 use super::colliders::may_touch;
+use super::reuse::REUSE_TOLERANCE;
 use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, IgnoredPairs, Materials, PairKey};
-use super::{PointMemory, Touch, TouchPhase};
+use super::{ContactReuse, PointMemory, Touch, TouchPhase};
 use crate::body::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyIndex, BodyTable, LinearVelocity, Orientation, Position,
 };
@@ -18,7 +19,7 @@ use crate::joint::JointTable;
 use crate::notice::Notices;
 use crate::part::Response;
 use crate::simulation::Beginning;
-use crate::{Clock, Settings};
+use crate::{Clock, ContactModel, Settings};
 
 /// Pose and motion of a body as of the last detection.
 #[derive(Clone, Copy, Debug)]
@@ -240,7 +241,8 @@ pub fn sync_pairs<D: Geometry>(world: &mut World) {
             end_pair(world, entity, time, &mut ended);
         }
     }
-    spawn_pairs::<D>(world, added, &mut pairs);
+    let reuse = Reuse::of(world.resource::<Settings<D>>().contact);
+    spawn_pairs::<D>(world, added, reuse, &mut pairs);
     let mut detection = world.resource_mut::<Detection<D>>();
     detection.pairs = pairs;
     detection.touches.append(&mut ended);
@@ -276,6 +278,10 @@ pub(crate) fn renumber_pairs<D: Geometry>(world: &mut World) {
         if let Some(mut known) = world.get_mut::<ContactPair>(entity) {
             *known = ContactPair { touching: known.touching, ..pair };
         }
+        // Their shapes may be others now.
+        if let Some(mut reuse) = world.get_mut::<ContactReuse<D>>(entity) {
+            *reuse = ContactReuse::default();
+        }
     }
     let time = world.resource::<Clock>().time();
     let mut ended = Vec::new();
@@ -298,14 +304,39 @@ fn end_pair(world: &mut World, entity: Entity, time: f64, ended: &mut Vec<Touch>
     world.despawn(entity);
 }
 
-fn spawn_pairs<D: Geometry>(world: &mut World, added: Vec<ContactPair>, pairs: &mut HashMap<PairKey, Entity>) {
+fn spawn_pairs<D: Geometry>(
+    world: &mut World,
+    added: Vec<ContactPair>,
+    reuse: Reuse,
+    pairs: &mut HashMap<PairKey, Entity>,
+) {
     let fresh: Vec<ContactPair> = added.into_iter().filter(|pair| !pairs.contains_key(&pair.key)).collect();
     let keys: Vec<PairKey> = fresh.iter().map(|pair| pair.key).collect();
     let bundles = fresh
         .into_iter()
         .map(|pair| (pair, ContactManifold::<D>(D::Manifold::default()), ContactMemory::<D>(D::PerPoint::default())));
-    let entities: Vec<Entity> = world.spawn_batch(bundles).collect();
+    let entities: Vec<Entity> = match reuse {
+        Reuse::No => world.spawn_batch(bundles).collect(),
+        Reuse::Yes => {
+            let bundles =
+                bundles.map(|(pair, manifold, memory)| (pair, manifold, memory, ContactReuse::<D>::default()));
+            world.spawn_batch(bundles).collect()
+        }
+    };
     pairs.extend(keys.into_iter().zip(entities));
+}
+
+/// Whether contact points are reused from step to step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Reuse {
+    Yes,
+    No,
+}
+
+impl Reuse {
+    fn of(model: ContactModel) -> Self {
+        if model == ContactModel::SoftStep { Self::Yes } else { Self::No }
+    }
 }
 
 fn new_pair<D: Geometry>(
@@ -331,7 +362,7 @@ pub fn find_contacts<D: Geometry>(
     settings: Res<Settings<D>>,
     colliders: Res<Colliders<D>>,
     mut detection: ResMut<Detection<D>>,
-    mut pairs: Query<(&mut ContactPair, &mut ContactManifold<D>, &mut ContactMemory<D>)>,
+    mut pairs: Query<(&mut ContactPair, &mut ContactManifold<D>, &mut ContactMemory<D>, Option<&mut ContactReuse<D>>)>,
     mut messages: ResMut<Messages<Touch>>,
     clock: Res<Clock>,
     beginning: Res<Beginning>,
@@ -344,7 +375,8 @@ pub fn find_contacts<D: Geometry>(
     let detection = &mut *detection;
     let touch_tolerance = settings.touch_tolerance();
     let keep_tolerance = touch_tolerance.max(KEEP_TOLERANCE * settings.slop());
-    for (mut pair, mut manifold, mut memory) in &mut pairs {
+    let reuse_tolerance = REUSE_TOLERANCE * settings.length_scale;
+    for (mut pair, mut manifold, mut memory, reuse) in &mut pairs {
         let pair = pair.bypass_change_detection();
         // Fat bounds overlap long before the parts can meet.
         let boxes = pair.colliders.map(|collider| detection.boxes[collider as usize].as_ref());
@@ -356,14 +388,30 @@ pub fn find_contacts<D: Geometry>(
             continue;
         }
         let [a, b] = pair.bodies.map(|body| &detection.motions[body as usize]);
-        let [shape_a, shape_b] = pair.colliders.map(|collider| &colliders.as_slice()[collider as usize].shape);
-        let query = ContactQuery {
-            margin: a.reach + b.reach,
-            flush_tolerance: 2.0 * settings.slop() + touch_tolerance,
-            previous: &manifold.0,
+        let margin = a.reach + b.reach;
+        let poses = [&a.pose, &b.pose];
+        let look = |margin: f64| {
+            let [one, other] = pair.colliders.map(|collider| &colliders.as_slice()[collider as usize].shape);
+            let query = ContactQuery {
+                margin,
+                flush_tolerance: 2.0 * settings.slop() + touch_tolerance,
+                previous: &manifold.0,
+            };
+            D::collide(Posed { shape: one, pose: &a.pose }, Posed { shape: other, pose: &b.pose }, &query)
         };
-        let found =
-            D::collide(Posed { shape: shape_a, pose: &a.pose }, Posed { shape: shape_b, pose: &b.pose }, &query);
+        let found = match reuse {
+            None => look(margin),
+            Some(reuse) if reuse.holds(poses, margin, reuse_tolerance) => reuse.carried(&manifold.0, poses),
+            Some(mut reuse) => {
+                // Farther, by what a step may reach farther and by what bodies may come nearer unnoticed.
+                let margin = margin + reuse_tolerance;
+                let found = look(margin + 2.0 * reuse_tolerance);
+                let extents = pair.colliders.map(|collider| colliders.as_slice()[collider as usize].extent);
+                let size = extents[0].max(extents[1]);
+                *reuse.bypass_change_detection() = ContactReuse::of(&found, poses, size, margin);
+                found
+            }
+        };
         let memory = &mut memory.bypass_change_detection().0;
         remember::<D>(&manifold.0, &found, memory);
         let (mut touching, mut hopped) = (false, true);

@@ -16,6 +16,7 @@ mod pair;
 mod penalty;
 mod problem;
 mod resting;
+mod reuse;
 mod soft;
 mod touch;
 mod velocity;
@@ -28,6 +29,7 @@ pub use pair::{ContactManifold, ContactMemory, ContactPair, PairKey, PointMemory
 pub use penalty::{PreviousEnds, apply_lecture_floor, apply_penalty_forces};
 pub use problem::{ContactProblem, ContactReport};
 pub use resting::{RestingModel, apply_resting_forces};
+pub use reuse::ContactReuse;
 pub use soft::{SoftModel, mend_soft_joints, take_soft_steps};
 pub use touch::{Touch, TouchPhase};
 pub use velocity::{PositionCorrections, VelocityModel, filter_positions, filter_velocities, resolve_impulses};

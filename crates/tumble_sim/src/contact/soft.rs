@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Inertia, Linear, Matrix};
-use tumble_solver::soft_step::{SoftPair, SoftPoint, SoftStep};
+use tumble_solver::soft_step::{SoftPair, SoftPoint, SoftStep, Width};
 use tumble_solver::{ContactRow, SolverBody};
 
 use super::problem::{BodyQuery, ContactProblem, ContactReport, PairQuery, RowSource};
@@ -24,11 +24,20 @@ use crate::{Clock, Settings};
 pub struct SoftModel<D: Geometry> {
     model: SoftStep<D>,
     points: Vec<SoftPoint<D>>,
+    /// Whether a contact pushed a body in this step, by rank.
+    pushed: Vec<bool>,
 }
 
 impl<D: Geometry> Default for SoftModel<D> {
     fn default() -> Self {
-        Self { model: SoftStep::default(), points: Vec::new() }
+        Self { model: SoftStep::default(), points: Vec::new(), pushed: Vec::new() }
+    }
+}
+
+impl<D: Geometry> SoftModel<D> {
+    /// Chooses how the kernels run: all ways give the same bits.
+    pub fn set_width(&mut self, width: Width) {
+        self.model.width = width;
     }
 }
 
@@ -73,7 +82,7 @@ pub fn take_soft_steps<D: Geometry>(
     }
     let dt = clock.part();
     let (how, substep) = (&settings.soft_step, dt / f64::from(settings.soft_step.substeps));
-    let SoftModel { model, points } = &mut *soft;
+    let SoftModel { model, points, pushed } = &mut *soft;
     let problem = &mut *problem;
     problem.begin_bodies(table.entries().len());
     for (index, velocity, spin, a, alpha, mass, inertia, orientation, _) in &bodies {
@@ -123,38 +132,15 @@ pub fn take_soft_steps<D: Geometry>(
         &problem.bodies,
     );
     let acts = number > 0 || !joints.is_empty();
-    if acts {
-        report.add(model.solve(dt, how, joints.as_joints(), &mut problem.bodies));
-    }
-
-    // In n substeps a free body moves by v₁ Δt − a Δt² (n − 1)/2n, with v₁ its velocity at the end.
-    let n = f64::from(how.substeps);
-    let behind = -0.5 * dt * dt * (n - 1.0) / n;
-    corrections.0.begin(&problem.bodies);
-    let mut before = books.as_ref().map(|_| problem.bodies.clone());
-    for (index, mut velocity, mut spin, a, alpha, ..) in &mut bodies {
-        if let Some(before) = &mut before {
-            let before = &mut before[index.0 as usize];
-            (before.velocity, before.angular_velocity) = (velocity.0, spin.0);
-        }
-        let shift = &mut corrections.0.bodies[index.0 as usize];
-        (shift.velocity, shift.angular_velocity) = (a.0 * behind, alpha.0 * behind);
-        if acts {
-            let (dv, dw) = model.change(index.0, how);
-            let (dx, turn) = model.displacement(index.0, dt, how);
-            velocity.bypass_change_detection().0 += dv;
-            spin.bypass_change_detection().0 += dw;
-            shift.velocity += dx - dv * dt;
-            shift.angular_velocity += turn - dw * dt;
-            let finite = dv.is_finite() && dw.is_finite() && dx.is_finite() && turn.is_finite();
-            fault.check(finite, index.0, Quantity::Velocity, StepSystems::FilterVelocities);
-        }
-        let body = &mut problem.bodies[index.0 as usize];
-        (body.velocity, body.angular_velocity) = (velocity.0, spin.0);
-    }
-    joints.collect_impulses();
-
     problem.forget_rows();
+    corrections.0.bodies.clear();
+    if !acts {
+        return;
+    }
+    report.add(model.solve(dt, settings.gravity.length(), how, joints.as_joints(), &mut problem.bodies));
+
+    pushed.clear();
+    pushed.resize(problem.bodies.len(), false);
     let mut number = 0;
     for (entity, pair, manifold, mut memory) in &mut pairs {
         if !solid(pair, manifold) {
@@ -167,6 +153,11 @@ pub fn take_soft_steps<D: Geometry>(
             let outcome = model.outcome(number, k);
             (memory.impulse, memory.slip) = (outcome.impulse, outcome.slip);
             memory.pending += frame.apply(outcome.total);
+            if outcome.total[0] > 0.0 {
+                for body in pair.bodies {
+                    pushed[body as usize] = true;
+                }
+            }
             if books.is_some() && (point.separation <= 0.0 || outcome.total[0] > 0.0) {
                 let [at_a, at_b] = pair.bodies.map(|body| detection.motions()[body as usize].pose.position);
                 problem.rows.push(ContactRow {
@@ -192,6 +183,34 @@ pub fn take_soft_steps<D: Geometry>(
         }
         number += 1;
     }
+    // In n substeps a free body moves by v₁ Δt − a Δt² (n − 1)/2n, with v₁ its velocity at the end; a whole step of symplectic Euler, by v₁ Δt.
+    // A body that no contact pushed takes the whole step: under a force that is constant over the step, substeps would make it swing ever wider.
+    let n = f64::from(how.substeps);
+    let behind = -0.5 * dt * dt * (n - 1.0) / n;
+    corrections.0.begin(&problem.bodies);
+    let mut before = books.as_ref().map(|_| problem.bodies.clone());
+    for (index, mut velocity, mut spin, a, alpha, ..) in &mut bodies {
+        if let Some(before) = &mut before {
+            let before = &mut before[index.0 as usize];
+            (before.velocity, before.angular_velocity) = (velocity.0, spin.0);
+        }
+        let shift = &mut corrections.0.bodies[index.0 as usize];
+        let (dv, dw) = model.change(index.0, how);
+        velocity.bypass_change_detection().0 += dv;
+        spin.bypass_change_detection().0 += dw;
+        let mut finite = dv.is_finite() && dw.is_finite();
+        if pushed[index.0 as usize] {
+            let (dx, turn) = model.displacement(index.0, dt, how);
+            shift.velocity = dx - dv * dt + a.0 * behind;
+            shift.angular_velocity = turn - dw * dt + alpha.0 * behind;
+            finite &= dx.is_finite() && turn.is_finite();
+        }
+        fault.check(finite, index.0, Quantity::Velocity, StepSystems::FilterVelocities);
+        let body = &mut problem.bodies[index.0 as usize];
+        (body.velocity, body.angular_velocity) = (velocity.0, spin.0);
+    }
+    joints.collect_impulses();
+
     problem.resting = problem.rows.len();
     if let (Some(books), Some(before)) = (&mut books, before) {
         let impulses = problem.rows.iter().map(|row| row.impulse);

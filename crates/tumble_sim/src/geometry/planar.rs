@@ -73,6 +73,10 @@ impl Geometry for Planar {
         manifold.normal
     }
 
+    fn placed(manifold: &PlanarManifold, normal: DVec2, place: impl FnMut(usize) -> (DVec2, f64)) -> PlanarManifold {
+        manifold.placed(normal, place)
+    }
+
     fn push_joint_rows(
         joint: &JointEntry<Self>,
         ends: &JointEnds<Self>,

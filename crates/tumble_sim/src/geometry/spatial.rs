@@ -77,6 +77,10 @@ impl Geometry for Spatial {
         manifold.normal
     }
 
+    fn placed(manifold: &SpatialManifold, normal: DVec3, place: impl FnMut(usize) -> (DVec3, f64)) -> SpatialManifold {
+        manifold.placed(normal, place)
+    }
+
     fn push_joint_rows(
         joint: &JointEntry<Self>,
         ends: &JointEnds<Self>,

@@ -41,6 +41,8 @@ pub struct Sweep {
     pub firm: Softness,
     /// Fastest push out of an overlap [m/s].
     pub push_speed: f32,
+    /// Slip below which friction may use its static coefficient, squared [m²/s²].
+    pub slow_slip: f32,
 }
 
 /// Velocities or displacements of the two bodies of a pair.
@@ -133,29 +135,6 @@ pub fn sweep<D: SoftDim, L: Lanes, const P: usize, const WHICH: bool>(
     let moved = Two::<D, L::Number>::gather(lanes, pack, shifts);
     let mut changed = zero;
 
-    if WHICH == RELAXING {
-        let frame = D::Frame::load(lanes, &pack.frame);
-        let static_friction = lanes.load(&pack.static_friction);
-        let kinetic_friction = lanes.load(&pack.kinetic_friction);
-        for point in &mut pack.points {
-            let arm_a = D::Axes::load(lanes, &point.arm_a);
-            let arm_b = D::Axes::load(lanes, &point.arm_b);
-            let slip = D::along_tangents(normal, frame, velocities.at(arm_a, arm_b));
-            let before = D::Tangents::load(lanes, &point.tangents);
-            let stop = D::Tangents::minus(before, D::Tangents::times(slip, lanes.load(&point.tangent_mass)));
-            let bound = lanes.load(&point.friction) * lanes.load(&point.impulse);
-            let (after, beyond) = D::within_bound(lanes, stop, bound);
-            // What friction cannot stop slides from now on; what it can stop sticks.
-            let friction = Number::if_greater(beyond, zero, kinetic_friction, static_friction);
-            lanes.store(friction, &mut point.friction);
-            D::Tangents::store(lanes, after, &mut point.tangents);
-            let sum = D::Tangents::load(lanes, &point.total_tangents);
-            D::Tangents::store(lanes, D::Tangents::plus(sum, after), &mut point.total_tangents);
-            let impulse = D::of_tangents(normal, frame, D::Tangents::minus(after, before));
-            velocities.push(&masses, arm_a, arm_b, impulse);
-        }
-    }
-
     let per_substep = lanes.splat(how.per_substep);
     let firm = lanes.load(&pack.firm);
     let bias_rate = firm_or_soft(lanes, firm, how.firm.bias_rate, how.soft.bias_rate);
@@ -192,6 +171,32 @@ pub fn sweep<D: SoftDim, L: Lanes, const P: usize, const WHICH: bool>(
         }
         velocities.push(&masses, arm_a, arm_b, D::Axes::times(normal, change));
     }
+
+    // After the normals: what the biased sweep leaves of an impulse is too little to bound friction by.
+    if WHICH == RELAXING {
+        let frame = D::Frame::load(lanes, &pack.frame);
+        let static_friction = lanes.load(&pack.static_friction);
+        let kinetic_friction = lanes.load(&pack.kinetic_friction);
+        let slow_slip = lanes.splat(how.slow_slip);
+        for point in &mut pack.points {
+            let arm_a = D::Axes::load(lanes, &point.arm_a);
+            let arm_b = D::Axes::load(lanes, &point.arm_b);
+            let slip = D::along_tangents(normal, frame, velocities.at(arm_a, arm_b));
+            let before = D::Tangents::load(lanes, &point.tangents);
+            let stop = D::Tangents::minus(before, D::Tangents::times(slip, lanes.load(&point.tangent_mass)));
+            let bound = lanes.load(&point.friction) * lanes.load(&point.impulse);
+            let (after, beyond) = D::within_bound(lanes, stop, bound);
+            // What slips, and friction cannot stop, slides from now on; all else sticks.
+            let fast = Number::if_greater(D::Tangents::dot(slip, slip), slow_slip, kinetic_friction, static_friction);
+            let friction = Number::if_greater(beyond, zero, fast, static_friction);
+            lanes.store(friction, &mut point.friction);
+            D::Tangents::store(lanes, after, &mut point.tangents);
+            let sum = D::Tangents::load(lanes, &point.total_tangents);
+            D::Tangents::store(lanes, D::Tangents::plus(sum, after), &mut point.total_tangents);
+            let impulse = D::of_tangents(normal, frame, D::Tangents::minus(after, before));
+            velocities.push(&masses, arm_a, arm_b, impulse);
+        }
+    }
     velocities.scatter(lanes, pack, motions);
     changed
 }
@@ -218,7 +223,7 @@ pub fn rebound<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &mut Pack<D
         let hit = Number::if_greater(total, zero, wanted, zero);
         let after = Number::if_greater(hit, zero, after, before);
         let change = after - before;
-        lanes.store(after, &mut point.impulse);
+        // It does not come again in the next step: only the sum knows of it.
         lanes.store(total + change, &mut point.total);
         velocities.push(&masses, arm_a, arm_b, D::Axes::times(normal, change));
     }

@@ -29,7 +29,7 @@ mod kernel;
 mod lanes;
 mod pack;
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, Simd};
 
 use crate::joint::Joints;
 use crate::{Ending, Report, SolverBody};
@@ -71,6 +71,9 @@ pub enum Width {
     /// One lane after the other: the oracle.
     Plain,
 }
+
+/// Slower than this many times what gravity adds in a substep, a point does not slide yet [1]: so much slips before its friction is known.
+const SLOW_SLIP: f64 = 1.0;
 
 /// How many points the packs of a class have room for.
 const ROOM: [usize; 3] = [1, 2, 4];
@@ -257,10 +260,11 @@ impl<D: SoftDim> SoftStep<D> {
         };
     }
 
-    /// Takes a step of `dt`. Joints hold at the end of every sweep, in double precision; `bodies` lend their inverse masses.
+    /// Takes a step of `dt` under a `gravity` [m/s²]. Joints hold at the end of every sweep, in double precision; `bodies` lend their inverse masses.
     pub fn solve(
         &mut self,
         dt: f64,
+        gravity: f64,
         settings: &SoftSettings,
         mut joints: Option<Joints<'_, D>>,
         bodies: &mut [SolverBody<D>],
@@ -272,6 +276,7 @@ impl<D: SoftDim> SoftStep<D> {
             soft: Softness::new(frequency, settings.damping_ratio, h),
             firm: Softness::new(2.0 * frequency, settings.damping_ratio, h),
             push_speed: settings.push_speed as f32,
+            slow_slip: ((SLOW_SLIP * gravity * h) * (SLOW_SLIP * gravity * h)) as f32,
         };
         self.list_jointed(&joints, bodies.len());
         let mut changed = 0.0;
@@ -365,8 +370,23 @@ impl<D: SoftDim> SoftStep<D> {
             Width::Plain => return self.plain(pass, how),
         };
         let mut worst = Wide::default();
-        dispatch!(level, simd => self.wide(simd, pass, how, &mut worst));
+        self.run(level, pass, how, &mut worst);
         worst.0.into_iter().fold(0.0, f32::max)
+    }
+
+    /// Two levels are enough here, and each costs seconds of compiling: eight lanes in one register, or in two.
+    #[cfg(target_arch = "x86_64")]
+    fn run(&mut self, level: Level, pass: Pass, how: &Sweep, worst: &mut Wide) {
+        if let Some(simd) = level.as_avx2() {
+            simd.vectorize(|| self.wide(simd, pass, how, worst));
+        } else if let Some(simd) = level.as_sse2() {
+            simd.vectorize(|| self.wide(simd, pass, how, worst));
+        }
+    }
+
+    #[cfg(not(target_arch = "x86_64"))]
+    fn run(&mut self, level: Level, pass: Pass, how: &Sweep, worst: &mut Wide) {
+        fearless_simd::dispatch!(level, simd => self.wide(simd, pass, how, worst));
     }
 
     #[inline(always)]
