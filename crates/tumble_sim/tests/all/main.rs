@@ -4,6 +4,7 @@ mod contacts;
 mod contacts_in_space;
 mod laws;
 mod ledger;
+mod soft_step;
 mod space;
 mod support;
 mod time_of_impact;

@@ -3,5 +3,6 @@
 mod common;
 mod joints;
 mod resting_lcp;
+mod soft_step;
 mod spatial;
 mod velocity_lcp;

@@ -1,13 +1,11 @@
 //! The soft-step model in whole simulations: what it keeps exactly, and how near it comes to the exact models.
 
-mod support;
-
-use bevy_ecs::name::Name;
-use glam::{DVec2, DVec3, dvec2, dvec3};
-use support::{
+use crate::support::{
     G, assert_near, ball, block, body, bouncing, contact_force, deepest_overlap, direction, every, farthest, floor,
     incline, names, rod, rough, simulation, under, wall,
 };
+use bevy_ecs::name::Name;
+use glam::{DVec2, DVec3, dvec2, dvec3};
 use tumble_math::{Spatial, SpatialRotation};
 use tumble_shape::{Capsule, Cuboid, HalfSpace, SpatialShape, Sphere};
 use tumble_sim::{
