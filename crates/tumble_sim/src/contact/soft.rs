@@ -153,7 +153,9 @@ pub fn take_soft_steps<D: Geometry>(
             let outcome = model.outcome(number, k);
             (memory.impulse, memory.slip) = (outcome.impulse, outcome.slip);
             memory.pending += frame.apply(outcome.total);
-            if outcome.total[0] > 0.0 {
+            // It met the surface in this step, wherever the rest of the step took it.
+            memory.held = outcome.total[0] > 0.0;
+            if memory.held {
                 for body in pair.bodies {
                     pushed[body as usize] = true;
                 }
