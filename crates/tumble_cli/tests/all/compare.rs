@@ -195,7 +195,7 @@ fn any_scene_can_be_compared() {
     for (name, scene) in scenes {
         bench.write(&format!("{name}.ron"), scene);
         let compared = bench.tumble(["compare", &format!("{name}.ron")]).code(0);
-        let compared = compared.says(&format!("{name}: 4 runs of")).says("Best for ");
+        let compared = compared.says(&format!("{name}: 5 runs of")).says("Best for ");
         assert!(!compared.stdout.contains("FAILED"), "{}", compared.stdout);
         assert_eq!(bench.names(&format!("out/{name}/compare")), ["compare.csv", "compare.svg"]);
     }

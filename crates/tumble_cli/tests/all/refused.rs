@@ -61,7 +61,7 @@ fn wrong_arguments_are_refused_by_name() {
         (&["compare", "falling.ron", "--contact", "impulse,impulse"], "--contact: impulse is given twice"),
         (
             &["compare", "falling.ron", "--dt", "0.01,0.02,0.03,0.04"],
-            "16 runs cannot be told apart in one plot: at most 12",
+            "20 runs cannot be told apart in one plot: at most 12",
         ),
         (&["compare", "falling.ron", "--out", ""], "a value is required"),
         (&["compare", "falling.ron", "--dt", "0.01,1"], "is shorter than one step of 1 s"),
@@ -71,7 +71,7 @@ fn wrong_arguments_are_refused_by_name() {
         (&["compare", "falling.ron", "--plot", "joint_force:pin"], "there is no joint `pin`; joints: none"),
         (
             &["compare", "falling.ron", "--dt", "1e-3,2e-3,3e-3,4e-3"],
-            "16 runs cannot be told apart in one plot: at most 12",
+            "20 runs cannot be told apart in one plot: at most 12",
         ),
         (&["schema", "1"], "unexpected argument"),
     ];

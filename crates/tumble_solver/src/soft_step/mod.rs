@@ -378,9 +378,15 @@ impl<D: SoftDim> SoftStep<D> {
     #[cfg(target_arch = "x86_64")]
     fn run(&mut self, level: Level, pass: Pass, how: &Sweep, worst: &mut Wide) {
         if let Some(simd) = level.as_avx2() {
-            simd.vectorize(|| self.wide(simd, pass, how, worst));
+            simd.vectorize(
+                #[inline(always)]
+                || self.wide(simd, pass, how, worst),
+            );
         } else if let Some(simd) = level.as_sse2() {
-            simd.vectorize(|| self.wide(simd, pass, how, worst));
+            simd.vectorize(
+                #[inline(always)]
+                || self.wide(simd, pass, how, worst),
+            );
         }
     }
 
