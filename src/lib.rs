@@ -62,8 +62,8 @@
 //! first, and holds what rests: exact restitution and friction, still stacks. [`Penalty`](sim::ContactModel::Penalty) pushes overlapping points
 //! apart with springs and dampers: smooth forces, simultaneous contacts, at the price of sinking and creeping.
 //! [`VelocityLcp`](sim::ContactModel::VelocityLcp) solves all contacts that hang together at once, with exact friction: the answer for coupled impacts, and rest without
-//! creep. [`RestingLcp`](sim::ContactModel::RestingLcp) finds contact *forces* from conditions on accelerations, for few contacts. Ideas and equations
-//! stand in [`solver`], measured limits in `docs/models/`.
+//! creep. [`RestingLcp`](sim::ContactModel::RestingLcp) finds contact *forces* from conditions on accelerations, for few contacts. [`SoftStep`](sim::ContactModel::SoftStep)
+//! takes substeps with soft contacts: for thousands of bodies, fast rather than exact. Ideas and equations stand in [`solver`], measured limits in `docs/models/`.
 //!
 //! ```
 //! use tumble::prelude::*;
