@@ -1,56 +1,69 @@
 //! Speed and memory of tumble: `cargo run --release -p tumble_bench`.
 //!
-//! Machines are noisy, so every question is answered by a ratio of figures measured in turn within one run, and each figure
-//! is the fastest of several rounds.
+//! With a scene it runs that and prints a line of CSV, as the programs of its peers do. Without one it answers [questions](questions::Question)
+//! about single costs: machines are noisy, so each answer is a ratio of figures measured in turn within one run, and each figure is
+//! the fastest of several rounds.
 
-mod measure;
-mod models;
-mod scenes;
+mod engine;
+mod profile;
+mod questions;
 
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
 use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};
-use tumble_sim::{ContactModel, ContactReport, StepError};
-use tumble_solver::Ending;
+use tumble_bench::memory::held_bytes;
+use tumble_bench::options::{Scenes, print_lines, some_scenes};
+use tumble_bench::run::{Run, run};
+use tumble_bench::scenes::SCENES;
+use tumble_bench::{AnyPlan, Line, RunOptions};
+use tumble_sim::ContactModel;
 
-use measure::{Timing, bytes_per_body, time_steps};
+use engine::{Tumble, TumbleError};
+use profile::Profile;
+use questions::Question;
 
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<std::alloc::System> = &INSTRUMENTED_SYSTEM;
 
-/// What to measure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Question {
-    /// One free rod body: cost of a step through the whole schedule.
-    FreeRod,
-    /// Spread-out bodies in free fall: cost per body at 1000 and at 10 000.
-    Spread,
-    /// 2000 bodies of three rods settle on a floor: faster than real time?
-    Settle,
-    /// Pyramids of boxes under each model that solves its contacts: cost, and growth with contacts.
-    Models,
-    /// Bytes per body and per contact pair.
-    Memory,
-}
-
 /// Speed and memory of tumble.
 #[derive(Debug, Parser)]
+#[command(after_help = after_help())]
 struct Arguments {
-    /// What to measure; everything unless given.
-    question: Option<Question>,
-    /// Contact model of `settle`.
-    #[arg(long, value_parser = contact_model, default_value = "impulse")]
-    contact: ContactModel,
+    /// A question, a scene or a series of scenes; all questions unless given.
+    #[arg(value_name = "QUESTION|SCENE", value_parser = what)]
+    what: Option<What>,
+    /// How to run scenes; `--steps` also of `settle` (600 unless given).
+    #[command(flatten)]
+    options: RunOptions,
+    /// Contact model; of scenes soft-step unless given, of `settle` impulse.
+    #[arg(long, value_parser = contact_model)]
+    contact: Option<ContactModel>,
+    /// Tell on standard error how long each phase of a step took (scenes).
+    #[arg(long)]
+    profile: bool,
     /// Bodies of `settle`.
     #[arg(long, default_value_t = 2000)]
     bodies: usize,
-    /// Steps of `settle`.
-    #[arg(long, default_value_t = 600)]
-    steps: u32,
-    /// Rounds of each figure; the fastest counts.
+    /// Rounds of each figure of a question; the fastest counts.
     #[arg(long, default_value_t = 5)]
     rounds: u32,
+}
+
+/// What the program was asked for.
+#[derive(Clone, Debug)]
+enum What {
+    Question(Question),
+    Scenes(Scenes),
+}
+
+fn what(word: &str) -> Result<What, String> {
+    if let Ok(question) = Question::from_str(word, false) {
+        return Ok(What::Question(question));
+    }
+    let questions = Question::value_variants().iter().filter_map(Question::to_possible_value);
+    let questions: Vec<String> = questions.map(|value| value.get_name().to_owned()).collect();
+    some_scenes(word).map(What::Scenes).map_err(|error| format!("{error}; questions are: {}", questions.join(", ")))
 }
 
 fn contact_model(word: &str) -> Result<ContactModel, String> {
@@ -61,28 +74,30 @@ fn contact_model(word: &str) -> Result<ContactModel, String> {
         .ok_or_else(|| format!("expected one of: {}", known()))
 }
 
+fn after_help() -> String {
+    let mut help = String::from("Questions:\n");
+    for value in Question::value_variants().iter().filter_map(Question::to_possible_value) {
+        let about = value.get_help().map(ToString::to_string).unwrap_or_default();
+        help += &format!("  {:<16} {about}\n", value.get_name());
+    }
+    help += "\nScenes, each a line of CSV; growth2d and growth3d are all sizes of a series:\n";
+    for scene in SCENES {
+        help += &format!("  {:<16} {}\n", scene.name, scene.about);
+    }
+    help + "\nThe engine itself runs on one thread at present, whatever --threads says."
+}
+
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let asked = |question| arguments.question.is_none_or(|only| only == question);
-    let answer = || -> Result<(), StepError> {
-        if asked(Question::FreeRod) {
-            free_rod(&arguments)?;
-        }
-        if asked(Question::Spread) {
-            spread(&arguments)?;
-        }
-        if asked(Question::Settle) {
-            settle(&arguments)?;
-        }
-        if asked(Question::Models) {
-            models::models()?;
-        }
-        if asked(Question::Memory) {
-            memory()?;
-        }
-        Ok(())
+    let done = match &arguments.what {
+        Some(What::Scenes(scenes)) => print_lines(scenes, &arguments.options, |plan| run_scene(&plan, &arguments)),
+        Some(What::Question(question)) => question.answer(&arguments).map_err(TumbleError::from),
+        None => Question::value_variants()
+            .iter()
+            .try_for_each(|question| question.answer(&arguments))
+            .map_err(TumbleError::from),
     };
-    match answer() {
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("tumble_bench: {error}");
@@ -91,84 +106,21 @@ fn main() -> ExitCode {
     }
 }
 
-fn free_rod(arguments: &Arguments) -> Result<(), StepError> {
-    let mut rod = scenes::free_rod();
-    let free = time_steps(&mut rod, 100_000, arguments.rounds)?;
-    let mut resting = scenes::resting_rod();
-    let resting = time_steps(&mut resting, 100_000, arguments.rounds)?;
-    println!("one free rod                {:8.3} µs a step   (aim: 1)", free.microseconds);
-    println!("one rod resting on a floor  {:8.3} µs a step   ({:.1} × free)", resting.microseconds, resting.over(free));
-    Ok(())
-}
-
-fn spread(arguments: &Arguments) -> Result<(), StepError> {
-    let mut small = scenes::spread(1_000);
-    let mut large = scenes::spread(10_000);
-    let (mut few, mut many) = (Timing::SLOWEST, Timing::SLOWEST);
-    // In turn, so that both see the same moods of the machine.
-    for _ in 0..arguments.rounds {
-        few = few.faster(time_steps(&mut small, 200, 1)?);
-        many = many.faster(time_steps(&mut large, 20, 1)?);
+fn run_scene(plan: &AnyPlan, arguments: &Arguments) -> Result<Line, TumbleError> {
+    let contact = arguments.contact.unwrap_or(ContactModel::SoftStep);
+    let profile = arguments.profile.then(Profile::default);
+    let version = match contact {
+        ContactModel::SoftStep => env!("CARGO_PKG_VERSION").to_owned(),
+        other => format!("{}-{}", env!("CARGO_PKG_VERSION"), other.word()),
+    };
+    let RunOptions { threads, steps, .. } = arguments.options;
+    let how = Run { engine: "tumble", version: &version, threads, steps, held_bytes: || held_bytes(ALLOCATOR) };
+    let line = match plan {
+        AnyPlan::Planar(plan) => run(plan, &how, |plan| Tumble::new(plan, contact, profile.as_ref())),
+        AnyPlan::Spatial(plan) => run(plan, &how, |plan| Tumble::new(plan, contact, profile.as_ref())),
+    }?;
+    if let Some(profile) = profile {
+        eprint!("{}\n{profile}", line.scene);
     }
-    let (few, many) = (few.microseconds / 1_000.0, many.microseconds / 10_000.0);
-    println!("spread-out rods,  1000      {:8.4} µs a step and body", few);
-    println!(
-        "spread-out rods, 10000      {:8.4} µs a step and body   ratio {:.2} (aim: at most 1.5)",
-        many,
-        many / few
-    );
-    Ok(())
-}
-
-fn settle(arguments: &Arguments) -> Result<(), StepError> {
-    let mut settled = None;
-    // Every round takes the same steps: the fastest time of each one counts.
-    let mut fastest = vec![f64::INFINITY; arguments.steps as usize];
-    let mut unconverged = 0;
-    for _ in 0..arguments.rounds {
-        let mut pile = scenes::settle(arguments.bodies, arguments.contact);
-        unconverged = 0;
-        for fastest in &mut fastest {
-            let started = std::time::Instant::now();
-            pile.step()?;
-            *fastest = fastest.min(started.elapsed().as_secs_f64());
-            let solved = pile.world().resource::<ContactReport>().solved;
-            unconverged += u32::from(solved.is_some_and(|report| report.ending == Ending::NotConverged));
-        }
-        settled = Some(pile);
-    }
-    let Some(mut pile) = settled else { return Ok(()) };
-    let wall: f64 = fastest.iter().sum();
-    let slowest = fastest.iter().copied().fold(0.0, f64::max);
-    let simulated = f64::from(arguments.steps) * pile.settings().dt;
-    let figures = scenes::pile_figures(&mut pile);
-    println!(
-        "{} bodies of three rods, {}: {:.2} s simulated in {:.2} s: {:.2} × real time; {:.2} ms a step, slowest {:.1} ms",
-        arguments.bodies,
-        arguments.contact.word(),
-        simulated,
-        wall,
-        simulated / wall,
-        wall / f64::from(arguments.steps) * 1e3,
-        slowest * 1e3
-    );
-    println!(
-        "    {} near pairs, {} touching points, deepest overlap {:.4} m, {} beyond {:.3} m, fastest body {:.3} m/s; {} steps did not converge",
-        figures.pairs,
-        figures.touching,
-        figures.deepest_overlap,
-        figures.deep,
-        scenes::DEEP,
-        figures.fastest,
-        unconverged
-    );
-    Ok(())
-}
-
-fn memory() -> Result<(), StepError> {
-    let rods = bytes_per_body(ALLOCATOR, scenes::spread)?;
-    println!("memory: {rods:.0} bytes for each body with one rod");
-    let compounds = bytes_per_body(ALLOCATOR, |count| scenes::settle(count, ContactModel::Impulse))?;
-    println!("memory: {compounds:.0} bytes for each body with three rods, its near pairs included");
-    Ok(())
+    Ok(line)
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use tumble_sim::{ContactModel, ContactReport, ImpulseSettings, Settings, StepError};
 use tumble_solver::Ending;
 
-use crate::scenes::pyramid;
+use super::scenes::{pile_figures, pyramid};
 
 /// A way to answer contacts.
 struct Way {
@@ -100,6 +100,6 @@ fn measure(way: &Way, rows: u32) -> Result<Figures, StepError> {
             figures.residual = figures.residual.max(solved.map_or(0.0, |report| report.residual));
         }
     }
-    figures.contacts = crate::scenes::pile_figures(&mut simulation).touching;
+    figures.contacts = pile_figures(&mut simulation).touching;
     Ok(figures)
 }

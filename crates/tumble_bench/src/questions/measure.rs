@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use stats_alloc::{Region, StatsAlloc};
+use tumble_bench::memory::held_bytes;
 use tumble_sim::{Simulation, StepError};
 
 /// Time of one step.
@@ -43,20 +43,16 @@ pub fn time_steps(simulation: &mut Simulation, steps: u32, rounds: u32) -> Resul
 }
 
 /// Bytes that one more body costs: the difference between 2000 and 1000 bodies, after a few steps.
-pub fn bytes_per_body(
-    allocator: &StatsAlloc<std::alloc::System>,
-    build: impl Fn(usize) -> Simulation,
-) -> Result<f64, StepError> {
-    let bytes_of = |count: usize| -> Result<isize, StepError> {
-        let region = Region::new(allocator);
+pub fn bytes_per_body(build: impl Fn(usize) -> Simulation) -> Result<f64, StepError> {
+    let bytes_of = |count: usize| -> Result<usize, StepError> {
+        let before = held_bytes(crate::ALLOCATOR);
         let mut simulation = build(count);
         for _ in 0..3 {
             simulation.step()?;
         }
-        let change = region.change();
-        let held = change.bytes_allocated as isize - change.bytes_deallocated as isize + change.bytes_reallocated;
+        let held = held_bytes(crate::ALLOCATOR) - before;
         drop(simulation);
         Ok(held)
     };
-    Ok((bytes_of(2_000)? - bytes_of(1_000)?) as f64 / 1_000.0)
+    Ok((bytes_of(2_000)? as f64 - bytes_of(1_000)? as f64) / 1_000.0)
 }
