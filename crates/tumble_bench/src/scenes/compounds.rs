@@ -13,6 +13,8 @@ const BODIES: u32 = 1500;
 const COLUMNS: u32 = 50;
 
 /// Bodies in rows above `bottom` [m], `spacing` apart [m], turned by chance, whose shape is that of their number.
+///
+/// Each reaches at most 0.55 m from its centre, so that none touch.
 fn cloud(bottom: f64, spacing: f64, seed: u64, shape: impl Fn(u32) -> Vec<Part<Planar>>) -> Vec<Body<Planar>> {
     let mut scatter = Scatter::new(seed);
     let body = |i: u32| {
@@ -83,8 +85,8 @@ fn clover() -> Vec<Part<Planar>> {
 
 fn angle() -> Vec<Part<Planar>> {
     vec![
-        part(PlanarShape::block(0.4, 0.1), DVec2::ZERO, 0.0),
-        part(PlanarShape::block(0.1, 0.3), dvec2(-0.3, 0.4), 0.0),
+        part(PlanarShape::block(0.38, 0.1), DVec2::ZERO, 0.0),
+        part(PlanarShape::block(0.1, 0.25), dvec2(-0.28, 0.35), 0.0),
     ]
 }
 
@@ -96,12 +98,12 @@ fn tee() -> Vec<Part<Planar>> {
 }
 
 fn channel() -> Vec<Part<Planar>> {
-    let side = |x| part(PlanarShape::block(0.08, 0.25), dvec2(x, 0.33), 0.0);
+    let side = |x| part(PlanarShape::block(0.08, 0.23), dvec2(x, 0.31), 0.0);
     vec![part(PlanarShape::block(0.4, 0.08), DVec2::ZERO, 0.0), side(-0.32), side(0.32)]
 }
 
 fn anchor() -> Vec<Part<Planar>> {
-    let ring = part(PlanarShape::Disc { radius: 0.15 }, dvec2(0.0, 0.45), 0.0);
-    let arm = PlanarShape::Capsule { half_length: 0.3, radius: 0.08 };
-    vec![part(PlanarShape::block(0.06, 0.35), DVec2::ZERO, 0.0), part(arm, dvec2(0.0, -0.35), 0.0), ring]
+    let ring = part(PlanarShape::Disc { radius: 0.13 }, dvec2(0.0, 0.37), 0.0);
+    let arm = PlanarShape::Capsule { half_length: 0.3, radius: 0.07 };
+    vec![part(PlanarShape::block(0.06, 0.3), DVec2::ZERO, 0.0), part(arm, dvec2(0.0, -0.3), 0.0), ring]
 }

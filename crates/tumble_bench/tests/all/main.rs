@@ -1,0 +1,6 @@
+//! The tests of `tumble_bench` as one program, which links once.
+
+mod judge;
+mod program;
+mod run;
+mod scenes;
