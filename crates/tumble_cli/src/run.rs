@@ -86,7 +86,7 @@ impl Output<'_> {
             Ok(files) => files,
             Err(error) => return self.partial(prepared, run, &error.to_string()),
         };
-        files.extend(self.pictures(&run.recording)?);
+        files.extend(self.pictures(&run.recording, Completeness::Whole)?);
         if self.arguments.quiet {
             report::outcomes(page, &verdict, Shown::Failures);
         } else {
@@ -110,8 +110,12 @@ impl Output<'_> {
     }
 
     /// Writes the pictures in space that were asked for, and returns where they are.
-    fn pictures<D: RecordDim>(&self, recording: &Recording<D>) -> Result<Vec<PathBuf>, FileError> {
-        let folder = self.folder.path(Completeness::Whole);
+    fn pictures<D: RecordDim>(
+        &self,
+        recording: &Recording<D>,
+        completeness: Completeness,
+    ) -> Result<Vec<PathBuf>, FileError> {
+        let folder = self.folder.path(completeness);
         let mut places = Vec::new();
         if self.arguments.gltf {
             places.push(folder.join("scene.gltf"));
@@ -130,6 +134,9 @@ impl Output<'_> {
         thin(&mut run.recording, prepared.every);
         let summary = Summary::new(&run.recording, run.wall_time);
         let rescued = write_run(&self.folder, Completeness::Partial, &run.recording, &summary, &self.arguments.plots);
+        let rescued = rescued
+            .map_err(|error| error.to_string())
+            .and_then(|_| self.pictures(&run.recording, Completeness::Partial).map_err(|error| error.to_string()));
         let rescue = match rescued {
             Ok(_) => {
                 let samples = run.recording.samples.len();

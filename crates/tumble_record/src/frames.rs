@@ -1,7 +1,8 @@
 //! Frames: the recording as pictures, drawn without any display.
 //!
 //! A small renderer of triangles: a depth buffer, a sun with a shadow map, a soft sky, four samples per pixel. The camera stands so
-//! that all that moves is in the picture at any time. The same recording gives the same bytes.
+//! that all that moves is in the picture at any time. Springs, joints, contact points and the forces there are drawn too; what bodies hide of
+//! them shines through faintly. The same recording gives the same bytes.
 
 mod camera;
 mod paint;
@@ -14,6 +15,7 @@ use std::thread;
 
 use crate::dim::RecordDim;
 use crate::files::{FileAction, FileError, write_file};
+use crate::fittings::Fittings;
 use crate::recording::Recording;
 use crate::stage::Stage;
 use camera::Camera;
@@ -53,6 +55,7 @@ pub struct Frames<'a, D: RecordDim> {
     recording: &'a Recording<D>,
     settings: FrameSettings,
     stage: Stage,
+    fittings: Fittings,
     camera: Camera,
 }
 
@@ -65,8 +68,9 @@ impl<'a, D: RecordDim> Frames<'a, D> {
             height: settings.height.clamp(16, 8192),
         };
         let stage = Stage::new(recording);
+        let fittings = Fittings::new(recording, &stage);
         let camera = Camera::looking_at(recording, &stage, settings.width as f64 / settings.height as f64);
-        Self { recording, settings, stage, camera }
+        Self { recording, settings, stage, fittings, camera }
     }
 
     /// Number of pictures.
@@ -76,14 +80,17 @@ impl<'a, D: RecordDim> Frames<'a, D> {
 
     /// Draws a picture by its number.
     pub fn picture(&self, number: usize) -> Picture {
+        let sample = self.recording.samples.get(self.sample_of(number));
+        let fittings = sample.map(|sample| self.fittings.of(self.recording, sample)).unwrap_or_default();
         let mut painter = Painter::new(&self.stage, &self.camera, self.settings.width, self.settings.height);
-        if let Some(sample) = self.recording.samples.get(self.sample_of(number)) {
+        if let Some(sample) = sample {
             for (index, body) in self.stage.bodies.iter().enumerate() {
                 if let Some(pose) = Stage::pose(sample, index) {
                     painter.place(body, &pose);
                 }
             }
         }
+        fittings.iter().for_each(|fitting| painter.add_fitting(fitting));
         painter.picture()
     }
 

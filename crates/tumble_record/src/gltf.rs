@@ -3,13 +3,14 @@
 //! A node per body, named as the body, under one root node that turns the way up, against gravity, to the y axis of glTF; metres and
 //! seconds stay. Positions and unit quaternions of the samples are its animation, interpolated linearly; from sample to sample a
 //! quaternion and its opposite, which are the same rotation, are chosen to be near. A body that is not in the world has size 0.
+//! Springs and joints are nodes of their own, which move and stretch with what they hold; contacts come and go and are not in the file.
 //! Shapes of the plane are thin solids around z = 0. All numbers are in the file, as base64 of 32-bit floats.
 
 use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
-use tumble_math::{Pose, Spatial};
 
 use crate::dim::RecordDim;
+use crate::fittings::{HOLD, Placement, holds};
 use crate::mesh::Mesh;
 use crate::recording::Recording;
 use crate::replay::base64;
@@ -24,6 +25,7 @@ const INDEX: u32 = 5125;
 pub fn to_gltf<D: RecordDim>(recording: &Recording<D>) -> String {
     let stage = Stage::new(recording);
     let mut file = File::default();
+    let times: Vec<(usize, f32)> = rising(recording.samples.iter().map(|sample| sample.time)).collect();
     let surfaces: Vec<Surface> = stage.meshes.iter().map(|mesh| file.add_surface(mesh)).collect();
     for (index, body) in stage.bodies.iter().enumerate() {
         let primitives: Vec<Value> = body
@@ -36,11 +38,17 @@ pub fn to_gltf<D: RecordDim>(recording: &Recording<D>) -> String {
             node["mesh"] = file.meshes.len().into();
             file.meshes.push(json!({ "primitives": primitives }));
         }
-        let poses: Vec<(f32, Option<Pose<Spatial>>)> = rising(recording.samples.iter().map(|sample| sample.time))
-            .map(|(sample, time)| (time, Stage::pose(&recording.samples[sample], index)))
-            .collect();
-        file.animate(&mut node, index + 1, &poses);
-        file.nodes.push(node);
+        let place = |sample: usize| Stage::pose(&recording.samples[sample], index);
+        let placements =
+            times.iter().map(|&(sample, time)| (time, place(sample).map(|pose| Placement { pose, stretch: 1.0 })));
+        file.add_node(node, &placements.collect::<Vec<_>>());
+    }
+    for hold in holds(recording, &stage) {
+        let primitive = file.add_surface(&hold.mesh).primitive(file.material(HOLD, false));
+        let node = json!({ "name": hold.name, "mesh": file.meshes.len() });
+        file.meshes.push(json!({ "primitives": [primitive] }));
+        let placements = times.iter().map(|&(sample, time)| (time, hold.placements[sample]));
+        file.add_node(node, &placements.collect::<Vec<_>>());
     }
     file.finish(&recording.scene, to_y_up(stage.up))
 }
@@ -146,18 +154,25 @@ impl File {
         self.materials.len() - 1
     }
 
-    /// Gives a node its first pose, and the later ones as an animation if they differ.
-    fn animate(&mut self, node: &mut Value, number: usize, poses: &[(f32, Option<Pose<Spatial>>)]) {
-        let present: Vec<(f32, Pose<Spatial>)> =
-            poses.iter().filter_map(|(time, pose)| Some((*time, (*pose)?))).collect();
+    /// Adds a node with its first placement, and the later ones as an animation if they differ.
+    fn add_node(&mut self, mut node: Value, placements: &[(f32, Option<Placement>)]) {
+        // Node 0 will be the root.
+        let number = self.nodes.len() + 1;
+        self.animate(&mut node, number, placements);
+        self.nodes.push(node);
+    }
+
+    fn animate(&mut self, node: &mut Value, number: usize, placements: &[(f32, Option<Placement>)]) {
+        let present: Vec<(f32, Placement)> =
+            placements.iter().filter_map(|(time, placement)| Some((*time, (*placement)?))).collect();
         let Some((_, start)) = present.first() else {
             node["scale"] = json!([0.0, 0.0, 0.0]);
             return;
         };
-        let mut before = start.rotation.quaternion();
+        let mut before = start.pose.rotation.quaternion();
         let mut places: Vec<[f32; 3]> = Vec::new();
         let mut turns: Vec<[f32; 4]> = Vec::new();
-        for (_, pose) in &present {
+        for (_, Placement { pose, .. }) in &present {
             let quaternion = pose.rotation.quaternion();
             before = if quaternion.dot(before) < 0.0 { -quaternion } else { quaternion };
             places.push(pose.position.as_vec3().to_array());
@@ -179,11 +194,13 @@ impl File {
                 self.add_channel(number, "rotation", "LINEAR", input, output);
             }
         }
-        if present.len() < poses.len() {
-            let times: Vec<[f32; 1]> = poses.iter().map(|(time, _)| [*time]).collect();
-            let sizes: Vec<[f32; 3]> = poses.iter().map(|(_, pose)| [f32::from(pose.is_some()); 3]).collect();
+        let size = |placement: &Option<Placement>| placement.map_or([0.0; 3], |it| [1.0, it.stretch as f32, 1.0]);
+        let sizes: Vec<[f32; 3]> = placements.iter().map(|(_, placement)| size(placement)).collect();
+        if sizes.iter().any(|size| *size != [1.0; 3]) {
+            let times: Vec<[f32; 1]> = placements.iter().map(|(time, _)| [*time]).collect();
             let (input, output) = (self.add_vectors(&times), self.add_vectors(&sizes));
-            self.add_channel(number, "scale", "STEP", input, output);
+            let is_always_there = present.len() == placements.len();
+            self.add_channel(number, "scale", if is_always_there { "LINEAR" } else { "STEP" }, input, output);
         }
     }
 

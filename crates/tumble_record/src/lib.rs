@@ -15,6 +15,7 @@ mod channel;
 mod dim;
 mod files;
 mod fingerprint;
+mod fittings;
 pub mod frames;
 pub mod gltf;
 mod joints;

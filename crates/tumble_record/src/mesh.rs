@@ -1,5 +1,6 @@
 //! Surfaces of shapes as triangles, for every picture in space: replay, glTF, frames.
 
+mod lines;
 mod planar;
 mod spatial;
 
@@ -44,10 +45,21 @@ pub struct Detail {
     pub half_thickness: f64,
 }
 
-/// Fields around a round shape; every other one is darker.
+/// Pieces around a round shape.
 const SECTORS: usize = 32;
 /// Brightness of the darker fields [1].
 const DARKER: f64 = 0.8;
+
+/// Darker fields around a round shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Fields {
+    /// None, and fewer pieces: for small things.
+    None,
+    /// Two, from end to end.
+    Stripes,
+    /// Two, which change places half way.
+    Board,
+}
 
 /// A ring of a surface of revolution.
 #[derive(Clone, Copy, Debug)]
@@ -71,16 +83,21 @@ impl Mesh {
     }
 
     /// Adds a strip of quadrilaterals between rings about an axis; rings go up along it.
-    fn add_revolution(&mut self, from: DVec3, axis: DVec3, rings: &[Ring], checkered: bool) {
+    fn add_revolution(&mut self, from: DVec3, axis: DVec3, rings: &[Ring], fields: Fields) {
+        let sectors = if fields == Fields::None { SECTORS / 4 } else { SECTORS };
         let side = axis.any_orthonormal_vector();
         let other = axis.cross(side);
         let around = |sector: usize| {
-            let (sin, cos) = trig::sin_cos(std::f64::consts::TAU * (sector % SECTORS) as f64 / SECTORS as f64);
+            let (sin, cos) = trig::sin_cos(std::f64::consts::TAU * (sector % sectors) as f64 / sectors as f64);
             side * cos + other * sin
         };
         for (level, pair) in rings.windows(2).enumerate() {
-            for sector in 0..SECTORS {
-                let field = sector * 4 / SECTORS + usize::from(checkered && 2 * level + 2 > rings.len());
+            for sector in 0..sectors {
+                let field = match fields {
+                    Fields::None => 0,
+                    Fields::Stripes => sector * 4 / sectors,
+                    Fields::Board => sector * 4 / sectors + usize::from(2 * level + 2 > rings.len()),
+                };
                 let first = self.positions.len() as u32;
                 for (ring, sector) in
                     [(pair[0], sector), (pair[0], sector + 1), (pair[1], sector + 1), (pair[1], sector)]
@@ -102,7 +119,7 @@ impl Mesh {
         let side = [ring(0.0, radius, (0.0, 1.0)), ring(length, radius, (0.0, 1.0))];
         let up = [ring(length, radius, (1.0, 0.0)), ring(length, 0.0, (1.0, 0.0))];
         for rings in [down, side, up] {
-            self.add_revolution(from, axis, &rings, false);
+            self.add_revolution(from, axis, &rings, Fields::Stripes);
         }
     }
 

@@ -36,6 +36,8 @@ pub struct Stage {
     pub up: DVec3,
     /// Two corners of the box around all that moves, at all times [m].
     pub span: [DVec3; 2],
+    /// Largest extent of a moving body, in the middle of their list [m].
+    pub size: f64,
 }
 
 /// A body as pictures show it.
@@ -73,7 +75,7 @@ impl Stage {
             .collect();
         let span = span(recording, &reaches);
         let ground = 12.0 * (span[1] - span[0]).length().max(size);
-        let mut stage = Self { meshes: Vec::new(), bodies: Vec::new(), up, span };
+        let mut stage = Self { meshes: Vec::new(), bodies: Vec::new(), up, span, size };
         let mut outlines: Vec<&D::Outline> = Vec::new();
         for (index, body) in recording.bodies.iter().enumerate() {
             let pose = recording.samples.iter().find_map(|sample| sample.state(index)).map(pose_of).unwrap_or_default();

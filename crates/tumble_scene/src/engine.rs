@@ -22,7 +22,7 @@ use crate::{validate, write};
 
 /// The large functions of a dimension, compiled once.
 pub struct SceneEngine<D: SceneDim> {
-    pub(crate) read: fn(&str, &Path) -> Result<Loaded<D>, Diagnostics>,
+    pub(crate) read: fn(&str, &Path, Option<&Path>) -> Result<Loaded<D>, Diagnostics>,
     pub(crate) write: fn(&Scene<D>) -> String,
     pub(crate) validate: fn(&Scene<D>, &MaterialLibrary) -> Vec<Diagnostic>,
     pub(crate) build: fn(&Scene<D>, &MaterialLibrary) -> Result<Simulation<D>, BuildError>,

@@ -45,7 +45,8 @@ impl<D: SceneDim> Loaded<D> {
 
     /// Reads a scene of this dimension from a text. `origin` names the text in messages; paths inside the scene are relative to its folder.
     pub fn parse(text: &str, origin: impl AsRef<Path>) -> Result<Self, Diagnostics> {
-        (D::scene_engine().read)(text, origin.as_ref())
+        let origin = origin.as_ref();
+        (D::scene_engine().read)(text, origin, Some(origin.parent().unwrap_or(Path::new(""))))
     }
 
     /// Reads a scene of this dimension from a file.
@@ -55,7 +56,12 @@ impl<D: SceneDim> Loaded<D> {
     }
 }
 
-pub(crate) fn read_scene<D: SceneDim>(text: &str, origin: &Path) -> Result<Loaded<D>, Diagnostics> {
+/// Reads a scene whose files are in a folder; without a folder it reads no files.
+pub(crate) fn read_scene<D: SceneDim>(
+    text: &str,
+    origin: &Path,
+    folder: Option<&Path>,
+) -> Result<Loaded<D>, Diagnostics> {
     // A byte order mark is no part of the text.
     let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
     if let Some(mistake) = other_dimension::<D>(text) {
@@ -63,8 +69,7 @@ pub(crate) fn read_scene<D: SceneDim>(text: &str, origin: &Path) -> Result<Loade
         mistakes.extend([mistake]);
         return Err(mistakes);
     }
-    let folder = origin.parent().unwrap_or(Path::new(""));
-    let (scene, root, mut diagnostics) = match read_checked::<Scene<D>>(text, grammar::<D>(), origin) {
+    let (mut scene, root, mut diagnostics) = match read_checked::<Scene<D>>(text, grammar::<D>(), origin) {
         Ok(read) => read,
         Err(refusal) => {
             let Refusal { root, mut mistakes } = *refusal;
@@ -76,7 +81,7 @@ pub(crate) fn read_scene<D: SceneDim>(text: &str, origin: &Path) -> Result<Loade
     };
     let mut tables = Vec::new();
     for (index, file) in scene.materials_from.iter().enumerate() {
-        match load_table(&folder.join(file)) {
+        match load_table_in(folder, file) {
             Ok(table) => tables.push(table),
             Err(mistakes) => {
                 let path = ScenePath::root().field("materials_from").index(index);
@@ -88,11 +93,16 @@ pub(crate) fn read_scene<D: SceneDim>(text: &str, origin: &Path) -> Result<Loade
             }
         }
     }
+    let unread = read_part_files(&mut scene, folder);
+    let is_unread = |finding: &Diagnostic| unread.iter().any(|(part, _)| finding.path == *part);
     let materials = MaterialLibrary::with_tables(&scene, &tables);
     // Without all tables every material could be unknown, so only what is certain is told.
     let are_tables_read = !diagnostics.has_errors();
-    let findings =
-        validate(&scene, &materials).into_iter().filter(|finding| are_tables_read || !finding.needs_all_names);
+    let findings = validate(&scene, &materials)
+        .into_iter()
+        .filter(|finding| (are_tables_read || !finding.needs_all_names) && !is_unread(finding));
+    let findings: Vec<Diagnostic> = findings.collect();
+    let findings = unread.into_iter().map(|(_, mistake)| mistake).chain(findings);
     diagnostics.extend(findings.map(|finding| finding.located(|path| root.locate(path))));
     if diagnostics.has_errors() {
         return Err(diagnostics);
@@ -132,14 +142,25 @@ pub enum AnyLoaded {
 }
 
 impl AnyLoaded {
+    /// Reads a scene that comes with the program, which is in no folder.
+    pub(crate) fn embedded(text: &str, origin: &str) -> Result<Self, Diagnostics> {
+        let origin = Path::new(origin);
+        Self::read(text, origin, None)
+    }
+
+    fn read(text: &str, origin: &Path, folder: Option<&Path>) -> Result<Self, Diagnostics> {
+        if dimension_of(text).is_some_and(|(word, _)| word == Spatial::WORD) {
+            (Spatial::scene_engine().read)(text, origin, folder).map(Self::Spatial)
+        } else {
+            (Planar::scene_engine().read)(text, origin, folder).map(Self::Planar)
+        }
+    }
+
     /// Reads a scene from a text, of whichever dimension it says. `origin` names the text in messages; paths inside the scene are relative to its
     /// folder.
     pub fn parse(text: &str, origin: impl AsRef<Path>) -> Result<Self, Diagnostics> {
-        if dimension_of(text).is_some_and(|(word, _)| word == Spatial::WORD) {
-            Loaded::parse(text, origin).map(Self::Spatial)
-        } else {
-            Loaded::parse(text, origin).map(Self::Planar)
-        }
+        let origin = origin.as_ref();
+        Self::read(text, origin, Some(origin.parent().unwrap_or(Path::new(""))))
     }
 
     /// Reads a scene from a file, of whichever dimension it says.
@@ -179,15 +200,52 @@ fn other_dimension<D: SceneDim>(text: &str) -> Option<Diagnostic> {
 }
 
 /// Mistakes in what the text's own mistakes leave of a scene.
-fn further_mistakes<D: SceneDim>(text: &str, root: &Node, known: &Diagnostics, folder: &Path) -> Vec<Diagnostic> {
+fn further_mistakes<D: SceneDim>(
+    text: &str,
+    root: &Node,
+    known: &Diagnostics,
+    folder: Option<&Path>,
+) -> Vec<Diagnostic> {
     let spans: Vec<Range<usize>> = known.iter().filter_map(|mistake| mistake.span.clone()).collect();
-    let Some(salvage) = Salvage::<D>::of(text, root, &spans) else { return Vec::new() };
+    let Some(mut salvage) = Salvage::<D>::of(text, root, &spans) else { return Vec::new() };
     let tables: Result<Vec<MaterialTable>, Diagnostics> =
-        salvage.scene.materials_from.iter().map(|file| load_table(&folder.join(file))).collect();
+        salvage.scene.materials_from.iter().map(|file| load_table_in(folder, file)).collect();
     let Ok(tables) = tables else { return Vec::new() };
     let library = MaterialLibrary::with_tables(&salvage.scene, &tables);
-    let findings = salvage.carry_over(validate(&salvage.scene, &library));
+    let unread = read_part_files(&mut salvage.scene, folder);
+    let mut findings = validate(&salvage.scene, &library);
+    findings.retain(|finding| !unread.iter().any(|(part, _)| finding.path == *part));
+    findings.extend(unread.into_iter().map(|(_, mistake)| mistake));
+    let findings = salvage.carry_over(findings);
     findings.map(|finding| finding.located(|path| root.locate(path))).collect()
+}
+
+/// Puts the contents of files into the parts that name them; gives the places of those that cannot be used, and why.
+fn read_part_files<D: SceneDim>(scene: &mut Scene<D>, folder: Option<&Path>) -> Vec<(ScenePath, Diagnostic)> {
+    let root = ScenePath::root();
+    let bodies = scene.bodies.iter_mut().enumerate();
+    let of_bodies = bodies.map(|(body, entry)| (root.field("bodies").index(body).field("parts"), &mut entry.parts));
+    let lists = scene.part_lists.iter_mut();
+    let of_lists = lists.map(|(name, parts)| (root.field("part_lists").key(name), parts));
+    let mut unread = Vec::new();
+    for (list, parts) in of_bodies.chain(of_lists) {
+        for (index, part) in parts.iter_mut().enumerate() {
+            if let Err(error) = D::read_file(part, folder) {
+                let path = list.index(index);
+                let mistake = Diagnostic::error(error.to_string()).about(path.field("file")).labelled("named here");
+                unread.push((path, mistake));
+            }
+        }
+    }
+    unread
+}
+
+fn load_table_in(folder: Option<&Path>, file: &str) -> Result<MaterialTable, Diagnostics> {
+    let Some(folder) = folder else {
+        let mistake = Diagnostic::error("this scene is in no folder, so it reads no files");
+        return Err(Diagnostics::about_file(file, mistake));
+    };
+    load_table(&folder.join(file))
 }
 
 /// Reads a table of materials from a file.

@@ -1,7 +1,11 @@
 //! The scenes that come with the program, embedded so that it needs no files.
 
+use std::path::Path;
+
+use tumble_math::Planar;
+
 use crate::diagnostics::{Diagnostics, nearest};
-use crate::format::Scene;
+use crate::dim::SceneDim;
 use crate::load::{AnyLoaded, Loaded};
 
 /// A scene that comes with the program.
@@ -103,7 +107,7 @@ impl Shipped {
     ///
     /// For a scene of space: see [`load_any`](Self::load_any).
     pub fn load(self) -> Result<Loaded, Diagnostics> {
-        Scene::parse(self.text, self.origin())
+        (Planar::scene_engine().read)(self.text, Path::new(&self.origin()), None)
     }
 
     /// Reads a scene of either dimension.
@@ -112,7 +116,7 @@ impl Shipped {
     ///
     /// Never for a scene of [`SHIPPED`]: a test loads them all.
     pub fn load_any(self) -> Result<AnyLoaded, Diagnostics> {
-        AnyLoaded::parse(self.text, self.origin())
+        AnyLoaded::embedded(self.text, &self.origin())
     }
 
     fn origin(self) -> String {

@@ -322,16 +322,18 @@ fn write_parts<D: SceneDim>(
         body.groups = Groups::Bits(first.groups.member_of);
         body.collides_with = Groups::Bits(first.groups.accepts);
     }
-    for part in &parts {
-        let fields = PartFields {
-            amount: part.amount,
-            material: name(part.material).filter(|_| !one_material),
-            sensor: part.response == Response::Sensor,
-            groups: (!one_group).then_some(Groups::Bits(part.groups.member_of)),
-            collides_with: (!one_group).then_some(Groups::Bits(part.groups.accepts)),
-        };
-        let unwritable = || UnwritableError::Body { body: body.name.clone(), what: "ground made of triangles" };
-        let part = D::part(&part.shape, fields).ok_or_else(unwritable)?;
+    let fields = |part: &tumble_sim::Part<D>| PartFields {
+        amount: part.amount,
+        material: name(part.material).filter(|_| !one_material),
+        sensor: part.response == Response::Sensor,
+        groups: (!one_group).then_some(Groups::Bits(part.groups.member_of)),
+        collides_with: (!one_group).then_some(Groups::Bits(part.groups.accepts)),
+    };
+    for pieces in parts.chunk_by(|one, other| D::are_pieces(&one.shape, &other.shape) && fields(one) == fields(other)) {
+        let shapes: Vec<&D::Shape> = pieces.iter().map(|part| &part.shape).collect();
+        let what = "several grounds of triangles that meet at corners";
+        let unwritable = || UnwritableError::Body { body: body.name.clone(), what };
+        let part = D::part(&shapes, fields(pieces[0])).ok_or_else(unwritable)?;
         body.parts.push(part);
     }
     Ok(())

@@ -40,5 +40,5 @@ pub use mass::{MassDim, MassProperties};
 pub use planar::{ConvexPolygon, Disc, HalfPlane, PlanarShape, Rod};
 pub use spatial::{
     Capsule, Cone, ConvexHull, Cuboid, Cylinder, Facet, HalfSpace, MeshError, SpatialRod, SpatialShape,
-    SpatialShapeError, Sphere, TriangleMesh,
+    SpatialShapeError, Sphere, TriangleMesh, join_corners,
 };

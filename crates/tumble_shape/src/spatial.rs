@@ -35,7 +35,7 @@ pub use error::SpatialShapeError;
 pub use half_space::HalfSpace;
 pub use rod::SpatialRod;
 pub use sphere::Sphere;
-pub use triangle_mesh::{Facet, MeshError, TriangleMesh};
+pub use triangle_mesh::{Facet, MeshError, TriangleMesh, join_corners};
 
 use glam::DVec3;
 use tumble_math::{Bounds, Pose, Rotation, Spatial, SpatialRotation};

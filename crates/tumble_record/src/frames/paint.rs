@@ -6,6 +6,7 @@ use tumble_math::{Pose, Rotation, Spatial};
 use super::Picture;
 use super::camera::Camera;
 use super::raster::{cut_near, fill};
+use crate::fittings::Fitting;
 use crate::mesh::{Look, Mesh};
 use crate::stage::{Stage, StageBody, room};
 
@@ -31,8 +32,24 @@ struct Solid<'a> {
     mesh: &'a Mesh,
     pose: Pose<Spatial>,
     color: DVec3,
-    sensor: bool,
+    veil: Veil,
 }
+
+/// What a solid leaves to be seen of what is behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Veil {
+    /// A body: nothing.
+    Opaque,
+    /// A sensor: most.
+    Air,
+    /// A fitting: nothing, and it shines faintly through what hides it.
+    Shining,
+}
+
+/// Share of a sensor in a colour [1].
+const AIR: f64 = 0.25;
+/// Share of a hidden fitting in a colour [1].
+const SHINING: f64 = 0.3;
 
 /// Where the light comes from, and how far it gets.
 struct Sun {
@@ -57,26 +74,32 @@ impl<'a> Painter<'a> {
 
     /// Adds a body.
     pub fn place(&mut self, body: &StageBody, pose: &Pose<Spatial>) {
-        let color = DVec3::from_array(body.color.map(|part| f64::from(part) / 255.0));
         for part in &body.parts {
             let mesh = &self.stage.meshes[part.mesh];
-            self.solids.push(Solid { mesh, pose: *pose, color, sensor: part.sensor });
+            let veil = if part.sensor { Veil::Air } else { Veil::Opaque };
+            self.solids.push(Solid { mesh, pose: *pose, color: shares(body.color), veil });
         }
+    }
+
+    /// Adds what is no body.
+    pub fn add_fitting(&mut self, fitting: &'a Fitting) {
+        let (mesh, color) = (&fitting.mesh, shares(fitting.color));
+        self.solids.push(Solid { mesh, pose: Pose::default(), color, veil: Veil::Shining });
     }
 
     /// Draws what was added.
     pub fn picture(mut self) -> Picture {
-        for solid in self.solids.iter().filter(|solid| !solid.sensor && solid.mesh.look == Look::Solid) {
+        for solid in self.solids.iter().filter(|solid| solid.veil == Veil::Opaque && solid.mesh.look == Look::Solid) {
             self.sun.shine_on(solid);
         }
         let rows = (0..self.height).map(|row| self.sky(row * self.width));
         let mut colors: Vec<DVec3> = rows.flat_map(|sky| std::iter::repeat_n(sky, self.width)).collect();
         let mut depths = vec![0.0; colors.len()];
-        for solid in self.solids.iter().filter(|solid| !solid.sensor) {
-            self.draw(solid, &mut colors, &mut depths);
-        }
-        for solid in self.solids.iter().filter(|solid| solid.sensor) {
-            self.draw(solid, &mut colors, &mut depths);
+        // Bodies first, so that it is known what they hide; sensors last, over all of it.
+        for veil in [Veil::Opaque, Veil::Shining, Veil::Air] {
+            for solid in self.solids.iter().filter(|solid| solid.veil == veil) {
+                self.draw(solid, &mut colors, &mut depths);
+            }
         }
         self.reduced(&colors)
     }
@@ -95,7 +118,9 @@ impl<'a> Painter<'a> {
                 let screen = piece.map(|(seen, ..)| self.on_screen(seen));
                 fill(&screen, self.width, self.height, |fragment| {
                     let depth = &mut depths[fragment.pixel];
-                    if fragment.depth <= *depth {
+                    let is_hidden = fragment.depth <= depth.abs();
+                    // A negative depth marks what already shines through here: once is enough.
+                    if is_hidden && (solid.veil != Veil::Shining || depth.is_sign_negative()) {
                         return;
                     }
                     let blend = |of: fn(&(DVec3, DVec3, f64)) -> DVec3| {
@@ -106,11 +131,16 @@ impl<'a> Painter<'a> {
                     let shade = blend(|corner| DVec3::splat(corner.2)).x;
                     let color = self.lit(solid, seen, normal, shade, self.sky(fragment.pixel));
                     let behind = &mut colors[fragment.pixel];
-                    if solid.sensor {
-                        *behind = behind.lerp(color, 0.25);
-                    } else {
-                        *depth = fragment.depth;
-                        *behind = color;
+                    match solid.veil {
+                        Veil::Air => *behind = behind.lerp(color, AIR),
+                        Veil::Shining if is_hidden => {
+                            *behind = behind.lerp(solid.color, SHINING);
+                            *depth = -*depth;
+                        }
+                        Veil::Opaque | Veil::Shining => {
+                            *depth = fragment.depth;
+                            *behind = color;
+                        }
                     }
                 });
             }
@@ -189,6 +219,11 @@ impl<'a> Painter<'a> {
         }
         Picture { width, height, pixels }
     }
+}
+
+/// A colour as shares of white (sRGB).
+fn shares(color: [u8; 3]) -> DVec3 {
+    DVec3::from_array(color.map(|part| f64::from(part) / 255.0))
 }
 
 impl Sun {

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
 
-use super::{Detail, Look, Mesh, Ring, arc};
+use super::{Detail, Fields, Look, Mesh, Ring, arc};
 use crate::dim::SpatialGeometry;
 
 /// Rings from the equator of a ball to its pole.
@@ -17,13 +17,13 @@ impl Mesh {
         match shape {
             SpatialGeometry::Sphere { centre, radius } => {
                 let rings: Vec<Ring> = arc(0.0, *radius, -FRAC_PI_2, FRAC_PI_2, 2 * RINGS).collect();
-                mesh.add_revolution(*centre, DVec3::Y, &rings, true);
+                mesh.add_revolution(*centre, DVec3::Y, &rings, Fields::Board);
             }
             SpatialGeometry::Rod { from, to, radius } => {
                 let wide = if *radius > 0.0 { *radius } else { detail.thin };
                 let (axis, length) = direction(*from, *to);
                 let ends = arc(0.0, wide, -FRAC_PI_2, 0.0, RINGS).chain(arc(length, wide, 0.0, FRAC_PI_2, RINGS));
-                mesh.add_revolution(*from, axis, &ends.collect::<Vec<Ring>>(), false);
+                mesh.add_revolution(*from, axis, &ends.collect::<Vec<Ring>>(), Fields::Stripes);
             }
             SpatialGeometry::Polyhedron { points, faces } => {
                 for face in faces {
@@ -43,7 +43,7 @@ impl Mesh {
                 let ring = |along, radius, normal| Ring { along, radius, normal };
                 let bottom = [ring(0.0, 0.0, (-1.0, 0.0)), ring(0.0, *radius, (-1.0, 0.0))];
                 for rings in [bottom, [ring(0.0, *radius, out), ring(length, 0.0, out)]] {
-                    mesh.add_revolution(*base, axis, &rings, false);
+                    mesh.add_revolution(*base, axis, &rings, Fields::Stripes);
                 }
             }
             SpatialGeometry::HalfSpace { point, normal } => {

@@ -4,6 +4,7 @@ mod planar;
 mod spatial;
 
 use std::fmt;
+use std::path::Path;
 
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use thiserror::Error;
@@ -28,6 +29,14 @@ pub enum PartError {
     /// Of ground made of triangles.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// The surface in a file is no shape.
+    #[error("the file \"{file}\" gives no shape: {problem}")]
+    File {
+        /// The file, as the scene names it.
+        file: String,
+        /// What is wrong with it.
+        problem: String,
+    },
     /// How it is turned means nothing.
     #[error("its orientation has an axis or a quaternion without direction")]
     Orientation,
@@ -84,8 +93,14 @@ pub trait SceneDim: Dialect + RecordDim {
     /// Shapes of a part in the design frame: one, several of ground, none of a list.
     fn shapes(part: &Self::Part) -> Result<Vec<Self::Shape>, PartError>;
 
-    /// The part that has a shape; `None` for one that scenes cannot write.
-    fn part(shape: &Self::Shape, fields: PartFields) -> Option<Self::Part>;
+    /// Puts the contents of its file into a part that names one. The folder is that of the scene; a scene without one reads no files.
+    fn read_file(part: &mut Self::Part, folder: Option<&Path>) -> Result<(), PartError>;
+
+    /// Whether two shapes belong together, as pieces of ground do: one part may have them both.
+    fn are_pieces(one: &Self::Shape, other: &Self::Shape) -> bool;
+
+    /// The part that has these shapes, which are one, or pieces of ground; `None` for those that scenes cannot write.
+    fn part(shapes: &[&Self::Shape], fields: PartFields) -> Option<Self::Part>;
 
     /// The smallest box around a shape, in its own frame [m]; `None` for one without bounds.
     fn bounds(shape: &Self::Shape) -> Option<Bounds<Self::Vector>>;

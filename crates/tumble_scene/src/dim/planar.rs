@@ -1,5 +1,7 @@
 //! Scenes of the plane.
 
+use std::path::Path;
+
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use glam::DVec2;
 use tumble_math::{Bounds, Planar, PlanarRotation, Pose, Rotation, SpatialRotation};
@@ -25,10 +27,18 @@ impl SceneDim for Planar {
         Ok(planar_shape(part)?.into_iter().collect())
     }
 
-    fn part(shape: &PlanarShape, fields: PartFields) -> Option<Part> {
+    fn read_file(_: &mut Part, _: Option<&Path>) -> Result<(), PartError> {
+        Ok(())
+    }
+
+    fn are_pieces(_: &PlanarShape, _: &PlanarShape) -> bool {
+        false
+    }
+
+    fn part(shapes: &[&PlanarShape], fields: PartFields) -> Option<Part> {
         let (density, mass) = fields.density_and_mass();
         let PartFields { material, sensor, groups, collides_with, .. } = fields;
-        Some(match shape {
+        Some(match shapes.first()? {
             PlanarShape::Rod(rod) => {
                 let (from, to, radius) = (rod.from(), rod.to(), rod.radius());
                 Part::Rod(RodPart { from, to, radius, density, mass, material, sensor, groups, collides_with })

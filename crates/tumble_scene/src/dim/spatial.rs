@@ -1,12 +1,14 @@
 //! Scenes of space.
 
+use std::path::Path;
+
 use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use glam::{DQuat, DVec3};
 use tumble_math::{Bounds, Pose, Rotation, Spatial, SpatialRotation, SymmetricTensor};
 use tumble_record::RecordDim;
 use tumble_shape::{
-    Capsule, Cone, ConvexHull, Cuboid, Cylinder, HalfSpace, MassProperties, SpatialRod, SpatialShape, Sphere,
-    TriangleMesh,
+    Capsule, Cone, ConvexHull, Cuboid, Cylinder, HalfSpace, MassProperties, SpatialRod, SpatialShape,
+    SpatialShapeError, Sphere, TriangleMesh,
 };
 
 use super::{AngularClaim, PartError, PartFields, SceneDim};
@@ -14,9 +16,11 @@ use crate::engine::SceneEngine;
 use crate::exact::{quaternion_before_normalization, spatial_before_normalization};
 use crate::expect::Measured;
 use crate::format::{
-    BodyEntry, CapsulePart, ConePart, CylinderPart, HalfSpacePart, HeightFieldPart, HullPart, InertiaEntry, Keyframe,
-    OrientationEntry, SpatialBoxPart, SpatialJointKind, SpatialPart, SpatialRodPart, SpherePart, VectorExpectation,
+    BodyEntry, CapsulePart, ConePart, CylinderPart, HalfSpacePart, HeightFieldPart, HullFilePart, HullPart,
+    InertiaEntry, Keyframe, MeshFilePart, MeshPart, OrientationEntry, SpatialBoxPart, SpatialJointKind, SpatialPart,
+    SpatialRodPart, SpherePart, VectorExpectation,
 };
+use crate::surface::Surface;
 
 impl SceneDim for Spatial {
     fn scene_engine() -> &'static SceneEngine<Self> {
@@ -35,22 +39,39 @@ impl SceneDim for Spatial {
             SpatialPart::Rod(part) => SpatialRod::try_new(part.from, part.to, part.radius)?.into(),
             SpatialPart::Cylinder(part) => Cylinder::try_new(part.from, part.to, part.radius)?.into(),
             SpatialPart::Cone(part) => Cone::try_new(part.base, part.tip, part.radius)?.into(),
-            SpatialPart::Hull(part) => ConvexHull::try_new(&part.points)?.into(),
+            SpatialPart::Hull(part) => hull(part)?.into(),
+            SpatialPart::HullFile(HullFilePart { file, .. }) | SpatialPart::MeshFile(MeshFilePart { file, .. }) => {
+                return Err(unread(file, "it is read when a scene is loaded"));
+            }
             SpatialPart::HalfSpace(part) => HalfSpace::try_new(part.normal, part.offset)?.into(),
             SpatialPart::Mesh(part) => {
                 let triangles: Vec<[u32; 3]> = part.triangles.iter().map(|&(a, b, c)| [a, b, c]).collect();
-                return Ok(facets(&TriangleMesh::try_new(part.points.clone(), triangles, part.thickness)?));
+                return Ok(pieces(&TriangleMesh::try_new(part.points.clone(), triangles, part.thickness)?));
             }
-            SpatialPart::HeightField(part) => return Ok(facets(&height_field(part)?)),
+            SpatialPart::HeightField(part) => return Ok(pieces(&height_field(part)?)),
             SpatialPart::List(_) => return Ok(Vec::new()),
         };
         Ok(vec![shape])
     }
 
-    fn part(shape: &SpatialShape, fields: PartFields) -> Option<SpatialPart> {
+    fn read_file(part: &mut SpatialPart, folder: Option<&Path>) -> Result<(), PartError> {
+        let read = match part {
+            SpatialPart::HullFile(part) => SpatialPart::Hull(hull_of_file(part, folder)?),
+            SpatialPart::MeshFile(part) => SpatialPart::Mesh(mesh_of_file(part, folder)?),
+            _ => return Ok(()),
+        };
+        *part = read;
+        Ok(())
+    }
+
+    fn are_pieces(one: &SpatialShape, other: &SpatialShape) -> bool {
+        matches!((one, other), (SpatialShape::Facet(one), SpatialShape::Facet(other)) if one.thickness() == other.thickness())
+    }
+
+    fn part(shapes: &[&SpatialShape], fields: PartFields) -> Option<SpatialPart> {
         let (density, mass) = fields.density_and_mass();
         let PartFields { material, sensor, groups, collides_with, .. } = fields;
-        Some(match shape {
+        Some(match shapes.first()? {
             SpatialShape::Sphere(sphere) => {
                 let (at, radius) = (sphere.centre(), sphere.radius());
                 SpatialPart::Sphere(SpherePart { at, radius, density, mass, material, sensor, groups, collides_with })
@@ -77,7 +98,9 @@ impl SceneDim for Spatial {
             }
             SpatialShape::ConvexHull(hull) => {
                 let points = hull.vertices().to_vec();
-                SpatialPart::Hull(HullPart { points, density, mass, material, sensor, groups, collides_with })
+                let flat_within = Some(hull.relative_tolerance()).filter(|tolerance| *tolerance != FLAT_WITHIN);
+                let part = HullPart { points, flat_within, density, mass, material, sensor, groups, collides_with };
+                SpatialPart::Hull(part)
             }
             SpatialShape::Cylinder(cylinder) => {
                 let ([from, to], radius) = (*cylinder.ends(), cylinder.radius());
@@ -93,7 +116,17 @@ impl SceneDim for Spatial {
                 let (normal, offset) = (spatial_before_normalization(plane.normal()), plane.offset());
                 SpatialPart::HalfSpace(HalfSpacePart { normal, offset, material, sensor, groups, collides_with })
             }
-            SpatialShape::Facet(_) => return None,
+            SpatialShape::Facet(first) => {
+                let facets = shapes.iter().filter_map(|shape| match shape {
+                    SpatialShape::Facet(facet) => Some(facet),
+                    _ => None,
+                });
+                let mesh = TriangleMesh::from_facets(&facets.collect::<Vec<_>>())?;
+                let (points, thickness) = (mesh.vertices().to_vec(), first.thickness());
+                let triangles = mesh.triangles().iter().map(|&[a, b, c]| (a, b, c)).collect();
+                let part = MeshPart { points, triangles, thickness, material, sensor, groups, collides_with };
+                SpatialPart::Mesh(part)
+            }
         })
     }
 
@@ -228,8 +261,51 @@ fn written(rotation: &SpatialRotation) -> OrientationEntry {
     OrientationEntry::Quaternion(x, y, z, w)
 }
 
-fn facets(mesh: &TriangleMesh) -> Vec<SpatialShape> {
+fn pieces(mesh: &TriangleMesh) -> Vec<SpatialShape> {
     mesh.facets().map(SpatialShape::from).collect()
+}
+
+/// Distance from a plane that counts as in it, for points that are written in a scene, as a share of a hull's longest extent [1].
+const FLAT_WITHIN: f64 = 1e-9;
+/// The same for points in a file, which are rounded to single precision [1].
+const FLAT_WITHIN_IN_FILES: f64 = 1e-6;
+
+fn hull(part: &HullPart) -> Result<ConvexHull, SpatialShapeError> {
+    ConvexHull::try_with_tolerance(&part.points, part.flat_within.unwrap_or(FLAT_WITHIN))
+}
+
+fn unread(file: &str, problem: impl ToString) -> PartError {
+    PartError::File { file: file.to_owned(), problem: problem.to_string() }
+}
+
+/// The surface in a file, relative to the folder of the scene.
+fn surface(file: &str, scale: Option<f64>, folder: Option<&Path>) -> Result<Surface, PartError> {
+    let folder = folder.ok_or_else(|| unread(file, "this scene is in no folder, so it reads no files"))?;
+    let scale = scale.unwrap_or(1.0);
+    if scale <= 0.0 {
+        return Err(unread(file, format!("a scale must be positive, and this one is {scale}")));
+    }
+    Surface::read(&folder.join(file), scale).map_err(|error| unread(file, error))
+}
+
+/// The hull of a file's surface, with the corners that it has.
+fn hull_of_file(part: &HullFilePart, folder: Option<&Path>) -> Result<HullPart, PartError> {
+    let HullFilePart { file, scale, flat_within, density, mass, material, sensor, groups, collides_with } =
+        part.clone();
+    let points = surface(&file, scale, folder)?.points;
+    let flat_within = Some(flat_within.unwrap_or(FLAT_WITHIN_IN_FILES));
+    let mut read = HullPart { points, flat_within, density, mass, material, sensor, groups, collides_with };
+    read.points = hull(&read).map_err(|error| unread(&file, error))?.vertices().to_vec();
+    Ok(read)
+}
+
+/// The ground that a file's surface is.
+fn mesh_of_file(part: &MeshFilePart, folder: Option<&Path>) -> Result<MeshPart, PartError> {
+    let MeshFilePart { file, scale, thickness, material, sensor, groups, collides_with } = part.clone();
+    let Surface { points, triangles } = surface(&file, scale, folder)?;
+    TriangleMesh::try_new(points.clone(), triangles.clone(), thickness).map_err(|error| unread(&file, error))?;
+    let triangles = triangles.into_iter().map(|[a, b, c]| (a, b, c)).collect();
+    Ok(MeshPart { points, triangles, thickness, material, sensor, groups, collides_with })
 }
 
 /// The ground over a grid in the plane of x and z; its cells are cut along the diagonal from small x and z to large ones.

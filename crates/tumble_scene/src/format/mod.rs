@@ -48,7 +48,7 @@ pub use part::{PartEntry, Shared};
 pub use planar_part::{BoxPart, DiscPart, HalfPlanePart, Part, PolygonPart, RodPart};
 pub use scene::{Integrator, Scene};
 pub use spatial_part::{
-    CapsulePart, ConePart, CylinderPart, HalfSpacePart, HeightFieldPart, HullPart, MeshPart, SpatialBoxPart,
-    SpatialPart, SpatialRodPart, SpherePart,
+    CapsulePart, ConePart, CylinderPart, HalfSpacePart, HeightFieldPart, HullFilePart, HullPart, MeshFilePart,
+    MeshPart, SpatialBoxPart, SpatialPart, SpatialRodPart, SpherePart,
 };
 pub use turn::{InertiaEntry, OrientationEntry, TensorEntry, Turn};

@@ -24,10 +24,14 @@ pub enum SpatialPart {
     Cone(ConePart),
     /// The convex hull of points.
     Hull(HullPart),
+    /// The convex hull of the surface in a file.
+    HullFile(HullFilePart),
     /// Everything below a plane: a floor, a wall or a slope. Only for bodies that forces do not move.
     HalfSpace(HalfSpacePart),
     /// Ground made of triangles. Only for bodies that forces do not move.
     Mesh(MeshPart),
+    /// Ground made of the triangles in a file. Only for bodies that forces do not move.
+    MeshFile(MeshFilePart),
     /// Ground given by its heights over a grid. Only for bodies that forces do not move.
     HeightField(HeightFieldPart),
     /// All parts of a named list.
@@ -132,6 +136,25 @@ part! {
         /// Points, at least four that lie in no plane; those inside the hull do not count [m].
         #[schemars(with = "Vec<(f64, f64, f64)>")]
         points: Vec<DVec3>,
+        /// Distance from the plane of a face that still counts as in it, as a share of the longest extent [1]. Default 1e-9.
+        #[serde(default)]
+        flat_within: Option<f64>,
+    }
+}
+
+part! {
+    /// The convex hull of the surface in a file; loading the scene turns it into a hull of points.
+    #[derive(Default)]
+    HullFilePart ["volume [kg/m³]"] {
+        /// File with the surface, relative to the folder of the scene: Wavefront OBJ (`.obj`) or STL (`.stl`).
+        file: String,
+        /// Length of the file's unit [m]. Default 1.
+        #[serde(default)]
+        scale: Option<f64>,
+        /// Distance from the plane of a face that still counts as in it, as a share of the longest extent [1]. Default 1e-6, for files are
+        /// rounded to single precision.
+        #[serde(default)]
+        flat_within: Option<f64>,
     }
 }
 
@@ -157,6 +180,21 @@ part! {
         points: Vec<DVec3>,
         /// Triangles, as numbers of corners counted from 0; counter-clockwise seen from outside.
         triangles: Vec<(u32, u32, u32)>,
+        /// Depth of solid ground below each triangle [m]: more than a body travels in a step.
+        thickness: f64,
+    }
+}
+
+part! {
+    /// Ground made of the triangles in a file, solid below each of them; loading the scene turns it into a mesh.
+    #[derive(Default)]
+    MeshFilePart [] {
+        /// File with the surface, relative to the folder of the scene: Wavefront OBJ (`.obj`) or STL (`.stl`); its triangles must be
+        /// counter-clockwise seen from outside.
+        file: String,
+        /// Length of the file's unit [m]. Default 1.
+        #[serde(default)]
+        scale: Option<f64>,
         /// Depth of solid ground below each triangle [m]: more than a body travels in a step.
         thickness: f64,
     }
@@ -196,8 +234,10 @@ impl PartEntry for SpatialPart {
             Self::Cylinder(part) => part.shared(),
             Self::Cone(part) => part.shared(),
             Self::Hull(part) => part.shared(),
+            Self::HullFile(part) => part.shared(),
             Self::HalfSpace(part) => part.shared(),
             Self::Mesh(part) => part.shared(),
+            Self::MeshFile(part) => part.shared(),
             Self::HeightField(part) => part.shared(),
             Self::List(_) => Shared::default(),
         }
@@ -210,7 +250,7 @@ impl PartEntry for SpatialPart {
     fn without_mass(&self) -> Option<&'static str> {
         match self {
             Self::HalfSpace(_) => Some("a half-space"),
-            Self::Mesh(_) => Some("a mesh"),
+            Self::Mesh(_) | Self::MeshFile(_) => Some("a mesh"),
             Self::HeightField(_) => Some("a height field"),
             _ => None,
         }

@@ -6,3 +6,4 @@ mod messages;
 mod overlap;
 mod robustness;
 mod round_trip;
+mod surfaces;

@@ -31,6 +31,8 @@ pub struct ConvexHull {
     centre: DVec3,
     inner_radius: f64,
     outer_radius: f64,
+    /// Distance from a plane that counted as in it, relative to the longest side of the cloud's box [1].
+    relative_tolerance: f64,
 }
 
 /// A face of a polyhedron: its plane, and where its sides are.
@@ -93,7 +95,8 @@ impl ConvexHull {
         }
         let loops: Vec<Vec<u32>> =
             polygons.into_iter().map(|polygon| polygon.into_iter().map(|i| number[i]).collect()).collect();
-        Ok(Self::from_loops(corners.into_iter().map(|i| points[i]).collect(), &loops))
+        let hull = Self::from_loops(corners.into_iter().map(|i| points[i]).collect(), &loops);
+        Ok(Self { relative_tolerance, ..hull })
     }
 
     /// A polyhedron from its vertices [m] and the loops of its faces, which must be closed, convex and counter-clockwise.
@@ -137,6 +140,7 @@ impl ConvexHull {
             centre: DVec3::ZERO,
             inner_radius: 0.0,
             outer_radius: 0.0,
+            relative_tolerance: FLAT,
         };
         hull.centre_on(hull.mass_properties(1.0).centre);
         hull
@@ -191,6 +195,12 @@ impl ConvexHull {
     #[inline]
     pub fn outer_radius(&self) -> f64 {
         self.outer_radius
+    }
+
+    /// How flat its faces are, relative to the longest side of the cloud's box: the tolerance it was made with [1].
+    #[inline]
+    pub fn relative_tolerance(&self) -> f64 {
+        self.relative_tolerance
     }
 
     /// Volume inside [m³].

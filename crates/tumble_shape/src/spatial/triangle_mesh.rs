@@ -9,6 +9,8 @@
 //!
 //! Every facet is a collider of its own, with its own bounds and its own contact points; a mesh is the list of them.
 
+use std::collections::BTreeMap;
+
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 use tumble_math::{Pose, Spatial};
@@ -91,6 +93,7 @@ pub struct Facet {
     /// The prism below the triangle; face 0 is the triangle, faces 2 to 4 are below its sides.
     prism: ConvexHull,
     beyond: [Beyond; 3],
+    thickness: f64,
 }
 
 impl Facet {
@@ -98,6 +101,16 @@ impl Facet {
     #[inline]
     pub fn prism(&self) -> &ConvexHull {
         &self.prism
+    }
+
+    /// Corners of the triangle, counter-clockwise seen from above the ground [m].
+    pub fn corners(&self) -> [DVec3; 3] {
+        std::array::from_fn(|corner| self.prism.vertices()[corner])
+    }
+
+    /// Depth of solid ground below the triangle [m].
+    pub fn thickness(&self) -> f64 {
+        self.thickness
     }
 
     /// Unit normal of the triangle, out of the ground.
@@ -124,7 +137,7 @@ impl Facet {
 
     /// The facet turned and then moved by a pose.
     pub fn posed(&self, pose: &Pose<Spatial>) -> Self {
-        Self { prism: self.prism.posed(pose), beyond: self.beyond }
+        Self { prism: self.prism.posed(pose), beyond: self.beyond, thickness: self.thickness }
     }
 }
 
@@ -192,6 +205,15 @@ impl TriangleMesh {
         Self::try_new(vertices, triangles, thickness)
     }
 
+    /// The mesh that has these facets, in this order; nothing if no mesh has just these.
+    ///
+    /// Corners at the same place are one vertex, so the facets of a mesh whose vertices are all at places of their own come back to it.
+    pub fn from_facets(facets: &[&Facet]) -> Option<Self> {
+        let (vertices, triangles) = join_corners(facets.iter().map(|facet| facet.corners()));
+        let mesh = Self::try_new(vertices, triangles, facets.first()?.thickness).ok()?;
+        mesh.facets().eq(facets.iter().map(|facet| (*facet).clone())).then_some(mesh)
+    }
+
     /// Vertices [m].
     pub fn vertices(&self) -> &[DVec3] {
         &self.vertices
@@ -225,7 +247,7 @@ impl TriangleMesh {
             let (across, up) = (outward.dot(other), normal.dot(other));
             if across > UPRIGHT { Beyond::Ridge { across, up } } else { Beyond::Level }
         });
-        Facet { prism, beyond }
+        Facet { prism, beyond, thickness: self.thickness }
     }
 
     fn corners(&self, triangle: usize) -> [DVec3; 3] {
@@ -236,6 +258,22 @@ impl TriangleMesh {
         let [a, b, c] = self.corners(triangle);
         (b - a).cross(c - a).normalize_or_zero()
     }
+}
+
+/// Vertices [m], and triangles over them: corners at the same place are one vertex, in the order in which they come.
+pub fn join_corners(triangles: impl IntoIterator<Item = [DVec3; 3]>) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let mut vertices: Vec<DVec3> = Vec::new();
+    let mut numbers: BTreeMap<[u64; 3], u32> = BTreeMap::new();
+    let mut number = |corner: DVec3| {
+        // Adding 0 makes −0 the same place as 0.
+        let place = (corner + DVec3::ZERO).to_array().map(f64::to_bits);
+        *numbers.entry(place).or_insert_with(|| {
+            vertices.push(corner);
+            vertices.len() as u32 - 1
+        })
+    };
+    let triangles = triangles.into_iter().map(|corners| corners.map(&mut number)).collect();
+    (vertices, triangles)
 }
 
 /// The triangle across each side.
