@@ -54,6 +54,25 @@ void main() {
 const SHADOW_FRAGMENT = `#version 300 es
 precision mediump float; out vec4 result; void main() { result = vec4(1.); }`;
 
+// Marks are discs that face the eye, a little nearer to it than what they mark, so that surfaces do not swallow them.
+const MARK_VERTEX = `#version 300 es
+in vec3 position;
+uniform mat4 camera; uniform vec3 eye; uniform float size; uniform float pixels;
+void main() {
+  gl_Position = camera * vec4(position + normalize(eye - position) * .004 * size, 1.);
+  gl_PointSize = pixels;
+}`;
+
+const MARK_FRAGMENT = `#version 300 es
+precision mediump float;
+uniform vec3 color; uniform vec3 rim; uniform float opacity;
+out vec4 result;
+void main() {
+  float out_of_middle = 2. * length(gl_PointCoord - .5);
+  if (out_of_middle > 1.) discard;
+  result = vec4(out_of_middle > .7 ? rim : color, 1.) * opacity;
+}`;
+
 /** Draws meshes with one sun. */
 class Light {
   /** A canvas below another one; without WebGL `works` is false. */
@@ -66,6 +85,13 @@ class Light {
     if (!gl) return;
     this.solid = this.program(SOLID_VERTEX, SOLID_FRAGMENT);
     this.shadow = this.program(SOLID_VERTEX, SHADOW_FRAGMENT);
+    this.mark = this.program(MARK_VERTEX, MARK_FRAGMENT);
+    this.marks = gl.createVertexArray();
+    gl.bindVertexArray(this.marks);
+    this.markPlaces = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.markPlaces);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
     this.meshes = recording.stage.meshes.map((mesh) => this.upload(mesh));
     this.map = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, this.map);
@@ -110,8 +136,8 @@ class Light {
     return { array, count: triangles.length, ground };
   }
 
-  /** Draws items { mesh, place, turn, color, sensor, glow } as a camera sees them. */
-  draw(items, { camera, eye, sun, toSun, up, size, haze }) {
+  /** Draws items { mesh, place, turn, color, sensor, glow } and marks as a camera sees them. */
+  draw(items, marks, { camera, eye, sun, toSun, up, size, haze }) {
     const { gl, canvas } = this, ratio = window.devicePixelRatio || 1;
     const width = Math.round(canvas.clientWidth * ratio), height = Math.round(canvas.clientHeight * ratio);
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
@@ -149,8 +175,28 @@ class Light {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthMask(false);
     pass(this.solid, camera, items.filter(({ sensor }) => sensor));
+    this.drawMarks(marks, { camera, eye, size, pixels: 7 * ratio });
     gl.depthMask(true);
     gl.disable(gl.BLEND);
+  }
+
+  /** Draws marks { places, color, rim }: those behind solids faintly. */
+  drawMarks({ places, color, rim }, { camera, eye, size, pixels }) {
+    if (places.length === 0) return;
+    const { gl } = this, { program, place } = this.mark;
+    gl.useProgram(program);
+    gl.uniformMatrix4fv(place("camera"), false, camera);
+    for (const [name, value] of Object.entries({ eye, color, rim })) gl.uniform3fv(place(name), value);
+    for (const [name, value] of Object.entries({ size, pixels })) gl.uniform1f(place(name), value);
+    gl.bindVertexArray(this.marks);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.markPlaces);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(places.flat()), gl.STREAM_DRAW);
+    for (const [test, opacity] of [[gl.GREATER, .25], [gl.LEQUAL, 1]]) {
+      gl.depthFunc(test);
+      gl.uniform1f(place("opacity"), opacity);
+      gl.drawArrays(gl.POINTS, 0, places.length);
+    }
+    gl.depthFunc(gl.LESS);
   }
 }
 

@@ -118,13 +118,14 @@ class View extends Pen {
     const eye = add(focus, forward, -distance);
     this.seen = { right, above, forward, eye, scale: height / (2 * this.slope()) };
     this.drawSky();
-    if (this.light.works && width > 0) this.drawSolids();
+    const contacts = recording.times.length ? contactsOf(sample) : [];
+    const marks = options.contacts ? contacts.map(({ point }) => add(point, recording.origin, -1)) : [];
+    if (this.light.works && width > 0) this.drawSolids(marks);
     context.lineJoin = context.lineCap = "round";
     if (options.trails) this.drawTrails(time);
     if (options.springs) this.drawSprings(time);
     if (options.joints) this.drawJoints(time);
-    const contacts = recording.times.length ? contactsOf(sample) : [];
-    if (options.contacts) this.drawContacts(contacts);
+    if (!this.light.works) this.drawMarks(marks);
     if (options.forces) this.drawForces(contacts, options.arrowScale);
     if (options.names) this.drawNames();
     this.drawScale(options);
@@ -139,7 +140,7 @@ class View extends Pen {
       `linear-gradient(${dark ? "#0f1318" : "#b3c9e2"} ${horizon - .6 * this.height}px, ${this.haze} ${horizon}px)`;
   }
 
-  drawSolids() {
+  drawSolids(marks) {
     const { right, above, forward, eye } = this.seen, { distance } = this.camera;
     const slope = this.slope(), aspect = this.width / this.height, near = .02 * distance, far = distance + 60 * this.size;
     const row = (axis, factor) => [...scaled(axis, factor), -factor * dot(axis, eye)];
@@ -161,7 +162,8 @@ class View extends Pen {
       const color = shares(hex);
       for (const [mesh, sensor] of body.parts) items.push({ mesh, sensor, place, turn, color, glow: index === this.hovered });
     });
-    this.light.draw(items, { camera: columns(rows), eye, sun, toSun, up: this.up, size: this.size, haze: shares(this.haze) });
+    const inks = { color: shares(color("--contact")), rim: shares(color("--canvas")) };
+    this.light.draw(items, { places: marks, ...inks }, { camera: columns(rows), eye, sun, toSun, up: this.up, size: this.size, haze: shares(this.haze) });
   }
 
   groundColor() { return matchMedia("(prefers-color-scheme: dark)").matches ? "#454c57" : "#d3d7dd"; }
@@ -236,11 +238,12 @@ class View extends Pen {
     }
   }
 
-  drawContacts(contacts) {
+  /** Marks of contact points where nothing can hide them. */
+  drawMarks(marks) {
     this.context.lineWidth = 1.2;
     this.context.fillStyle = color("--contact");
     this.context.strokeStyle = color("--canvas");
-    for (const { point } of contacts) this.dotAt(add(point, recording.origin, -1), 2.8, true);
+    for (const place of marks) this.dotAt(place, 2.8, true);
   }
 
   /** Forces on moving bodies as arrows, as long in the world as they would be in the middle of the picture. */
