@@ -1,10 +1,14 @@
 //! The command line.
 
+use std::num::NonZero;
+use std::ops::Range;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, value_parser};
 use tumble_record::{Channel, body_quantity_names, joint_quantity_names, world_names};
+use tumble_scene::Variation;
 use tumble_scene::format::ContactModel;
 
 /// Rigid bodies in contact, simulated headless: exact, exchangeable, reproducible.
@@ -38,6 +42,8 @@ pub enum Command {
     Test(TestArguments),
     /// Run a scene under several contact models and step sizes, side by side
     Compare(CompareArguments),
+    /// Run a scene many times with some of its numbers varied, and tell how each run ended
+    Batch(BatchArguments),
     /// Print how far each contact model is from closed forms, as the table in the README
     Accuracy,
     /// Print the JSON Schema of the scene format
@@ -142,6 +148,71 @@ pub struct CompareArguments {
     pub out: Option<PathBuf>,
 }
 
+/// Run a scene many times.
+#[derive(Args, Debug)]
+#[command(after_help = after_batch_help())]
+pub struct BatchArguments {
+    /// A scene file, or the name of a shipped scene (see `tumble scenes`)
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+    /// Number of runs
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..), allow_negative_numbers = true)]
+    pub runs: u64,
+    /// Draw a number of the scene anew for each run, uniformly from A up to B; may be repeated
+    ///
+    /// PATH leads to the number by names of fields, bodies, joints and materials, and by x, y, z, with dots between them:
+    /// bodies.rod.velocity.x, gravity.y, materials.wood.static_friction; numbers count the places of other lists from 0:
+    /// bodies.rod.parts.0.density.
+    #[arg(long = "vary", value_name = "PATH=A..B")]
+    pub variations: Vec<Variation>,
+    /// Chooses the random numbers: run i draws from stream i of this seed, whichever others run
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub seed: u64,
+    /// Also write the last value of a quantity, such as `y:ball`; may be repeated
+    #[arg(long = "show", value_name = "CHANNEL[:BODY]")]
+    pub shown: Vec<Channel>,
+    /// File for the table; default: out/<scene name>/batch.csv
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Only the I-th of K parts of the runs, I from 1 to K; the tables of all parts one after the other are that of all runs
+    #[arg(long, value_name = "I/K", default_value = "1/1")]
+    pub shard: Shard,
+    /// Number of threads; default: one per core
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZero<usize>>,
+    #[command(flatten)]
+    pub overrides: Overrides,
+}
+
+/// A part of the runs of a batch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// Which part, counted from 1.
+    part: u64,
+    /// Number of parts.
+    of: u64,
+}
+
+impl Shard {
+    /// The runs of this part; parts are as large as each other, to one run.
+    pub fn of(self, runs: u64) -> Range<u64> {
+        let until = |part: u64| (u128::from(runs) * u128::from(part) / u128::from(self.of)) as u64;
+        until(self.part - 1)..until(self.part)
+    }
+}
+
+impl FromStr for Shard {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers = text.split_once('/').and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
+        match numbers {
+            Some((part, of)) if (1..=of).contains(&part) => Ok(Self { part, of }),
+            _ => Err("it must be I/K with I from 1 to K, such as 2/8"),
+        }
+    }
+}
+
 fn contact_model() -> impl TypedValueParser<Value = ContactModel> {
     PossibleValuesParser::new(ContactModel::ALL.map(ContactModel::word))
         .try_map(|word| ContactModel::from_word(&word).ok_or("unknown contact model"))
@@ -176,6 +247,15 @@ fn after_compare_help() -> String {
     )
 }
 
+fn after_batch_help() -> String {
+    format!(
+        "Columns: run, the varied numbers, steps, time, fingerprint (that of the same scene run by itself), the quantities shown, and\n\
+         error: why a run has failed. The table appears whole; when interrupted, the rows so far are in FILE.partial.\n\
+         Expectations are not looked at. The exit code is 3 if a run failed.\n\n{}\n\n{EXIT_CODES}",
+        channels()
+    )
+}
+
 fn after_run_help() -> String {
     format!(
         "Files: trajectory.csv, contacts.csv, audit.csv, touches.csv, joints.csv (of scenes with joints), summary.json, energy.svg, replay.html, and an SVG per plot;\n\
@@ -196,6 +276,23 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn shards_are_all_runs_once_and_about_as_large() {
+        for (runs, of) in [(10, 3), (2, 5), (7, 7), (u64::MAX, 2)] {
+            let mut next = 0;
+            for part in 1..=of {
+                let range = format!("{part}/{of}").parse::<Shard>().unwrap().of(runs);
+                assert_eq!(range.start, next);
+                assert!((runs / of..=runs / of + 1).contains(&(range.end - range.start)));
+                next = range.end;
+            }
+            assert_eq!(next, runs);
+        }
+        for wrong in ["", "1", "0/2", "3/2", "1/0", "-1/2", "a/b"] {
+            assert!(wrong.parse::<Shard>().is_err(), "{wrong}");
+        }
     }
 
     #[test]

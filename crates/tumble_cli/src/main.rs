@@ -1,13 +1,14 @@
 //! `tumble`: runs, checks and tests scenes of rigid bodies.
 //!
 //! - [`args`]: the command line; [`source`]: from its words to scenes;
-//! - [`run`], [`check`], [`test`], [`compare`], [`accuracy`], [`scenes`]: one file or folder per command;
+//! - [`run`], [`check`], [`test`], [`compare`], [`batch`], [`accuracy`], [`scenes`]: one file or folder per command;
 //! - [`simulate`]: a scene from its first step to its last, or as far as it gets; [`interrupt`]: Ctrl-C; [`parallel`]: several at a time;
 //! - [`report`], [`figure`]: a run in words; [`page`]: standard output, which may be closed or full;
 //! - [`failure`]: what can go wrong, and its exit code.
 
 mod accuracy;
 mod args;
+mod batch;
 mod check;
 mod compare;
 mod failure;
@@ -45,6 +46,7 @@ fn command(command: Command, page: &mut Page) -> Result<Exit, Failure> {
         Command::Check(arguments) => check::check(&arguments, page),
         Command::Test(arguments) => test::test(&arguments, page),
         Command::Compare(arguments) => compare::compare(&arguments, page),
+        Command::Batch(arguments) => batch::batch(&arguments, page),
         Command::Accuracy => accuracy::accuracy(page),
         Command::Schema => {
             page.line(tumble_scene::schema());

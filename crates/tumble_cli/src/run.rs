@@ -116,15 +116,19 @@ impl Output<'_> {
         completeness: Completeness,
     ) -> Result<Vec<PathBuf>, FileError> {
         let folder = self.folder.path(completeness);
-        let mut places = Vec::new();
+        let (mut places, mut written) = (Vec::new(), Vec::new());
         if self.arguments.gltf {
             places.push(folder.join("scene.gltf"));
+            written.push(folder.join("scene.gltf"));
             write_file(&folder.join("scene.gltf"), |out| out.write_all(to_gltf(recording).as_bytes()))?;
         }
         if let Some(count) = self.arguments.frames {
             let settings = FrameSettings { count: count as usize, ..FrameSettings::default() };
-            write_frames(recording, settings, &folder)?;
+            written.extend(write_frames(recording, settings, &folder)?);
             places.extend(["frames", "scene.gif"].map(|name| folder.join(name)));
+        }
+        if completeness == Completeness::Partial {
+            self.folder.list_partial(&written)?;
         }
         Ok(places)
     }

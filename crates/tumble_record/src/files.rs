@@ -5,7 +5,7 @@
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::{fmt, process};
 
@@ -47,7 +47,8 @@ impl fmt::Display for FileAction {
 }
 
 impl FileError {
-    pub(crate) fn new(action: FileAction, path: &Path, reason: io::Error) -> Self {
+    /// What was tried with a file, and why it failed.
+    pub fn new(action: FileAction, path: &Path, reason: io::Error) -> Self {
         Self { action, path: path.to_owned(), reason }
     }
 }
@@ -150,23 +151,37 @@ impl OutputFolder {
         Ok(PreparedFiles { folder: self.clone(), completeness, files: Vec::new() })
     }
 
+    /// Puts files that were written into the `partial` folder by themselves on its list, so that a later run removes them too.
+    pub fn list_partial(&self, files: &[PathBuf]) -> Result<(), FileError> {
+        let partial = self.path(Completeness::Partial);
+        let list = partial.join(CONTENTS);
+        let mut contents = fs::read_to_string(&list).unwrap_or_default();
+        for name in files.iter().filter_map(|file| file.strip_prefix(&partial).ok()?.to_str()) {
+            contents = contents + name + "\n";
+        }
+        write_file(&list, |out| out.write_all(contents.as_bytes()))
+    }
+
     /// Removes what an interrupted run left: the files on its list, then the list, then the folder if nothing else is in it.
     fn remove_partial(&self) -> Result<(), FileError> {
         let partial = self.path(Completeness::Partial);
         let list = partial.join(CONTENTS);
         let Ok(contents) = fs::read_to_string(&list) else { return Ok(()) };
-        let is_plain_name = |name: &str| Path::new(name).file_name().is_some_and(|plain| plain == name);
-        let listed = contents.lines().filter(|name| is_plain_name(name)).map(|name| partial.join(name));
-        for file in listed.chain([list.clone()]) {
+        let is_inside = |name: &&str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+        let listed = contents.lines().filter(|name| !name.is_empty()).filter(is_inside).map(|name| partial.join(name));
+        let listed: Vec<PathBuf> = listed.collect();
+        for file in listed.iter().chain([&list]) {
             match fs::remove_file(&file) {
                 Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
-                    return Err(FileError::new(FileAction::Remove, &file, reason));
+                    return Err(FileError::new(FileAction::Remove, file, reason));
                 }
                 _ => {}
             }
         }
-        // Somebody else's file keeps the folder alive.
-        let _ = fs::remove_dir(&partial);
+        // Somebody else's file keeps a folder alive.
+        for folder in listed.iter().filter_map(|file| file.parent()).chain([&*partial]) {
+            let _ = fs::remove_dir(folder);
+        }
         Ok(())
     }
 }

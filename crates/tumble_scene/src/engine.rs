@@ -24,6 +24,8 @@ use crate::{validate, write};
 pub struct SceneEngine<D: SceneDim> {
     pub(crate) read: fn(&str, &Path, Option<&Path>) -> Result<Loaded<D>, Diagnostics>,
     pub(crate) write: fn(&Scene<D>) -> String,
+    pub(crate) to_plain: fn(&Scene<D>) -> Result<String, String>,
+    pub(crate) of_plain: fn(&str) -> Result<Scene<D>, String>,
     pub(crate) validate: fn(&Scene<D>, &MaterialLibrary) -> Vec<Diagnostic>,
     pub(crate) build: fn(&Scene<D>, &MaterialLibrary) -> Result<Simulation<D>, BuildError>,
     pub(crate) overlaps: fn(&Scene<D>, &MaterialLibrary) -> Result<Vec<Diagnostic>, BuildError>,
@@ -44,6 +46,8 @@ impl<D: SceneDim> SceneEngine<D> {
         Self {
             read: load::read_scene::<D>,
             write: write::written::<D>,
+            to_plain: write::plain::<D>,
+            of_plain: write::of_plain::<D>,
             validate: validate::findings::<D>,
             build: build::simulation::<D>,
             overlaps: overlap::overlaps_at_start::<D>,

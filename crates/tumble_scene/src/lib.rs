@@ -18,6 +18,7 @@
 //! assert!(mistakes.to_string().contains("did you mean `density`?"));
 //! ```
 
+mod batch;
 mod build;
 mod check;
 pub mod diagnostics;
@@ -42,6 +43,7 @@ mod to_scene;
 mod validate;
 mod write;
 
+pub use batch::{Batch, BatchEnd, BatchError, BatchRun, RunFailure, Variation};
 pub use build::{BuildError, FromScene};
 pub use check::{Check, RunError};
 pub use dim::{PartError, SceneDim};

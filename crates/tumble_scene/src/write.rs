@@ -183,3 +183,13 @@ fn joined(open: char, close: char, items: impl Iterator<Item = String>) -> Strin
     line.push(close);
     line
 }
+
+/// A scene with every field, in one line: for programs, not for people.
+pub(crate) fn plain<D: SceneDim>(scene: &Scene<D>) -> Result<String, String> {
+    crate::text::options().to_string(scene).map_err(|error| error.to_string())
+}
+
+/// Reads what [`plain`] wrote.
+pub(crate) fn of_plain<D: SceneDim>(text: &str) -> Result<Scene<D>, String> {
+    crate::text::read(text).map_err(|error| error.code.to_string())
+}

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use tumble_bench::memory::held_bytes;
-use tumble_sim::{Simulation, StepError};
+use tumble_sim::{Geometry, Simulation, StepError};
 
 /// Time of one step.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,7 @@ impl Timing {
 }
 
 /// Time of a step: the fastest of several rounds of `steps`.
-pub fn time_steps(simulation: &mut Simulation, steps: u32, rounds: u32) -> Result<Timing, StepError> {
+pub fn time_steps<D: Geometry>(simulation: &mut Simulation<D>, steps: u32, rounds: u32) -> Result<Timing, StepError> {
     simulation.step()?;
     let mut fastest = Timing::SLOWEST;
     for _ in 0..rounds {

@@ -2,7 +2,10 @@
 
 mod measure;
 mod models;
+mod narrow;
 mod scenes;
+mod simbenchmark;
+mod space;
 
 use clap::ValueEnum;
 use tumble_sim::{ContactModel, ContactReport, StepError};
@@ -22,6 +25,12 @@ pub enum Question {
     Settle,
     /// Pyramids of boxes under each model that solves its contacts: cost, and growth with contacts.
     Models,
+    /// Pairs of boxes, hulls and cylinders: nanoseconds, beside `parry3d-f64`.
+    Narrow,
+    /// The shipped scene `opening_pile`: faster than real time? And cost per contact from 1000 to 10 000 contacts in space.
+    Space,
+    /// SIMBENCHMARK
+    Simbenchmark,
     /// Bytes per body and per contact pair.
     Memory,
 }
@@ -34,6 +43,12 @@ impl Question {
             Self::Spread => spread(arguments),
             Self::Settle => settle(arguments),
             Self::Models => models::models(),
+            Self::Narrow => {
+                narrow::narrow();
+                Ok(())
+            }
+            Self::Space => space::space(arguments.rounds),
+            Self::Simbenchmark => simbenchmark::simbenchmark(),
             Self::Memory => memory(),
         }
     }

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod audit;
+mod batch;
 mod commands;
 mod compare;
 mod failed;

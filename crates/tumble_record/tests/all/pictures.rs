@@ -225,7 +225,7 @@ fn check_gltf<D: RecordDim>(recording: &Recording<D>) -> usize {
         let times: Vec<f32> = reader.read_inputs().expect("times").collect();
         assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "time goes on");
         let node = channel.target().node();
-        let body = recording.body(node.name().expect("a name")).expect("nodes are bodies");
+        let Some(body) = recording.body(node.name().expect("a name")) else { continue };
         let states: Vec<_> = recording.states(body).map(|(_, state)| state).collect();
         match reader.read_outputs().expect("values") {
             gltf::animation::util::ReadOutputs::Translations(places) => {
@@ -261,6 +261,64 @@ fn gltf_is_valid_and_has_the_samples_of_every_moving_body() {
     assert_eq!(check_gltf(&common::falling_rods(1.0, 10)), 6);
     assert_eq!(check_gltf(&Recording::<Planar>::default()), 0);
     assert_eq!(check_gltf(&Recording::<Spatial>::default()), 0);
+}
+
+#[test]
+fn gltf_stretches_springs_from_end_to_end() {
+    let recording = common::falling_rods(1.0, 10);
+    let text = to_gltf(&recording);
+    let file = gltf::Gltf::from_slice(text.as_bytes()).expect("valid glTF");
+    let bytes = file.buffers().next().map(|buffer| match buffer.source() {
+        gltf::buffer::Source::Uri(uri) => decoded(uri),
+        gltf::buffer::Source::Bin => panic!("all is in one file"),
+    });
+    let node = file.nodes().find(|node| node.name() == Some("spring 0")).expect("the spring");
+    let (mut places, mut turns, mut sizes) = (Vec::new(), Vec::new(), Vec::new());
+    for channel in file.animations().flat_map(|animation| animation.channels().collect::<Vec<_>>()) {
+        if channel.target().node().index() != node.index() {
+            continue;
+        }
+        match channel.reader(|_| bytes.as_deref()).read_outputs().expect("values") {
+            gltf::animation::util::ReadOutputs::Translations(all) => places.extend(all),
+            gltf::animation::util::ReadOutputs::Rotations(all) => turns.extend(all.into_f32()),
+            gltf::animation::util::ReadOutputs::Scales(all) => sizes.extend(all),
+            gltf::animation::util::ReadOutputs::MorphTargetWeights(_) => panic!("nothing morphs"),
+        }
+    }
+    let spring = &recording.springs[0];
+    let ends =
+        |sample| [&spring.a, &spring.b].map(|end| end.in_world(sample).expect("it is there").extend(0.0).as_vec3());
+    let (place, turn, size) = node.transform().decomposed();
+    let length = ends(&recording.samples[0]);
+    let length = length[0].distance(length[1]);
+    for (index, sample) in recording.samples.iter().enumerate() {
+        let [from, to] = ends(sample);
+        let place = glam::Vec3::from(*places.get(index).unwrap_or(&place));
+        let turn = glam::Quat::from_array(*turns.get(index).unwrap_or(&turn));
+        let size = sizes.get(index).unwrap_or(&size)[1];
+        // Rounding of 32 bits, at a few metres.
+        assert!(
+            (place - from).length() < 1e-5 && (place + turn * glam::Vec3::Y * (size * length) - to).length() < 1e-5
+        );
+    }
+    assert!(sizes.iter().any(|size| (size[1] - 1.0).abs() > 0.01), "it is stretched");
+}
+
+#[test]
+fn frames_show_contacts_and_springs() {
+    let mut recording = common::falling_rods(1.0, 10);
+    let last = |recording: &Recording| {
+        let settings = FrameSettings { count: 2, width: 160, height: 90 };
+        Frames::new(recording, settings).picture(1)
+    };
+    let all = last(&recording);
+    recording.springs.clear();
+    let without_springs = last(&recording);
+    recording.samples.iter_mut().for_each(|sample| sample.contacts.clear());
+    let bodies_only = last(&recording);
+    // A spring is some pixels wide; several bodies touch the floor at the end.
+    assert!(different(&all, &without_springs) > 10, "{}", different(&all, &without_springs));
+    assert!(different(&without_springs, &bodies_only) > 10, "{}", different(&without_springs, &bodies_only));
 }
 
 #[test]

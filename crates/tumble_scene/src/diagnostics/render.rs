@@ -52,8 +52,14 @@ impl Diagnostics {
                     group = group.element(element);
                 }
             }
-            None if entry.path.segments().is_empty() => group = group.element(Origin::path(&*self.origin)),
-            None => group = group.element(Origin::path(format!("{}: {}", self.origin, entry.path))),
+            None => {
+                let is_whole = entry.path.segments().is_empty();
+                let place = if is_whole { self.origin.clone() } else { format!("{}: {}", self.origin, entry.path) };
+                group = group.element(Origin::path(place));
+                if !entry.label.is_empty() {
+                    group = group.element(Level::NOTE.message(one_line(&entry.label)));
+                }
+            }
         }
         for help in &entry.help {
             group = group.element(Level::HELP.message(one_line(help)));

@@ -1,5 +1,6 @@
 //! The tests of `tumble_scene` as one program, which links once.
 
+mod batch;
 mod check;
 mod materials;
 mod messages;

@@ -9,7 +9,7 @@ use tumble_math::Spatial;
 use tumble_scene::format::{HullPart, MeshPart, SpatialPart};
 use tumble_scene::{FromScene, Loaded, Surface, SurfaceError, ToScene};
 use tumble_shape::{ConvexHull, TriangleMesh};
-use tumble_sim::{Amount, BodyKind, Part, Settings, Simulation};
+use tumble_sim::{Amount, BodyKind, Part, Position, Settings, Simulation};
 
 type Fallible<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
@@ -123,7 +123,7 @@ fn faces_of_a_file_are_flat_to_single_precision() -> Fallible {
     assert_eq!((faces(1e-6)?, faces(1e-9)?), (6, 12));
 
     // The scene keeps them flat, and so does what is written of it.
-    let loaded = load(&folder, r#"HullFile(file: "cube.obj")"#, "Dynamic")?;
+    let loaded = load(&folder, r#"HullFile(file: "cube.obj", density: 1)"#, "Dynamic")?;
     let mut simulation = Simulation::from_loaded(&loaded)?;
     let written = simulation.to_scene()?;
     let again = Loaded::<Spatial>::parse(&written.to_ron(), "again.ron")?;
@@ -151,7 +151,7 @@ fn ground_comes_back_from_a_simulation_as_points_and_triangles() -> Fallible {
     // Two grounds that touch nowhere are one list of triangles; two that share a place are not what they were.
     let mut simulation = Simulation::<Spatial>::with_settings(Settings::weightless());
     let square = [DVec3::ZERO, DVec3::Z, dvec3(1.0, 0.0, 1.0)];
-    let body = simulation.spawn(BodyKind::Static);
+    let body = simulation.spawn((Position(DVec3::ZERO), BodyKind::Static));
     for offset in [DVec3::ZERO, dvec3(5.0, 0.0, 0.0)] {
         let mesh = TriangleMesh::try_new(square.map(|corner| corner + offset), [[0, 1, 2]], 1.0)?;
         for facet in mesh.facets() {
@@ -173,7 +173,7 @@ fn a_file_that_gives_no_shape_is_named_with_its_place_and_reason() -> Fallible {
     let flat = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
     let thin = "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n";
     let cases: [(&str, &[u8], &str, &str); 9] = [
-        ("flat.obj", flat.as_bytes(), "HullFile", "the convex hull needs at least four points"),
+        ("flat.obj", flat.as_bytes(), "HullFile", "a convex hull needs at least four points, but has 3"),
         ("thin.obj", thin.as_bytes(), "MeshFile", "the corners of triangle 0 lie on one line"),
         ("empty.obj", b"", "HullFile", "it has no triangle"),
         ("nan.obj", b"v 0 0 0\nv NaN 0 0\nv 0 1 0\nf 1 2 3\n", "HullFile", "corner 1 of triangle 0 is not finite"),
@@ -199,7 +199,13 @@ fn a_file_that_gives_no_shape_is_named_with_its_place_and_reason() -> Fallible {
 fn a_missing_file_is_told_as_it_stands_in_the_scene() -> Fallible {
     let folder = tempfile::tempdir()?;
     let message = load(&folder, r#"HullFile(file: "no.obj")"#, "Dynamic").expect_err("there is no file");
-    insta::assert_snapshot!(message, @"");
+    insta::assert_snapshot!(message, @r#"
+    error: the file "no.obj" gives no shape: it cannot be read: No such file or directory (os error 2)
+     --> scene.ron:3:24
+      |
+    3 |         HullFile(file: "no.obj"),
+      |                        ^^^^^^^^ named here
+    "#);
     let message = load(&folder, r#"HullFile(file: "no.obj", scale: -1)"#, "Dynamic").expect_err("a wrong scale");
     assert!(message.contains("a scale must be positive, and this one is -1"), "{message}");
     Ok(())

@@ -1,7 +1,6 @@
 //! What a pair of shapes costs in space, beside `parry3d-f64` on the same pairs.
 //!
-//! `cargo bench -p tumble_collision --bench spatial` prints nanoseconds a pair, the best of several rounds that take turns, because
-//! everything else on the machine only adds. `fresh` looks at every pair without memory; `again` hands both sides the manifold of a
+//! Nanoseconds a pair, the best of several rounds that take turns, because everything else on the machine only adds. `fresh` looks at every pair without memory; `again` hands both sides the manifold of a
 //! step before, with poses that moved by some 0.05 mm and 0.1 mrad.
 
 use std::hint::black_box;
@@ -10,10 +9,10 @@ use std::time::Instant;
 use glam::{DQuat, DVec3, dvec3};
 use parry3d_f64::math::{Pose3, Vec3};
 use parry3d_f64::query::{ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher};
-use parry3d_f64::shape::{ConvexPolyhedron, Cuboid as ParryCuboid, Shape};
+use parry3d_f64::shape::{ConvexPolyhedron, Cuboid as ParryCuboid, Cylinder as ParryCylinder, Shape};
 use tumble_collision::{SpatialManifold, SpatialQuery, collide_spatial};
-use tumble_math::{Pose, Spatial, SpatialRotation};
-use tumble_shape::{ConvexHull, Cuboid, SpatialShape};
+use tumble_math::{Pose, Rotation, Spatial, SpatialRotation};
+use tumble_shape::{ConvexHull, Cuboid, Cylinder, SpatialShape};
 
 const MARGIN: f64 = 0.02;
 const PAIRS: usize = 512;
@@ -33,7 +32,8 @@ impl Noise {
     }
 
     fn rotation(&mut self) -> SpatialRotation {
-        SpatialRotation::try_from_quaternion(DQuat::from_vec4(self.vector(1.0).extend(self.number() - 0.5))).unwrap()
+        SpatialRotation::try_from_quaternion(DQuat::from_vec4(self.vector(1.0).extend(self.number() - 0.5)))
+            .expect("it is not zero")
     }
 }
 
@@ -45,7 +45,7 @@ struct Both {
 
 fn boxed(half: DVec3) -> Both {
     Both {
-        own: Cuboid::with_half_extents(half).unwrap().into(),
+        own: Cuboid::with_half_extents(half).expect("it has an extent").into(),
         peer: Box::new(ParryCuboid::new(Vec3::new(half.x, half.y, half.z))),
     }
 }
@@ -55,8 +55,16 @@ fn hull(noise: &mut Noise, corners: usize) -> Both {
     let points: Vec<DVec3> = (0..corners).map(|_| noise.vector(1.0).normalize() * 0.6).collect();
     let peer: Vec<Vec3> = points.iter().map(|p| Vec3::new(p.x, p.y, p.z)).collect();
     Both {
-        own: ConvexHull::try_new(&points).unwrap().into(),
-        peer: Box::new(ConvexPolyhedron::from_convex_hull(&peer).unwrap()),
+        own: ConvexHull::try_new(&points).expect("random points lie in no plane").into(),
+        peer: Box::new(ConvexPolyhedron::from_convex_hull(&peer).expect("random points lie in no plane")),
+    }
+}
+
+fn cylinder(half_length: f64, radius: f64) -> Both {
+    let end = DVec3::Y * half_length;
+    Both {
+        own: Cylinder::try_new(-end, end, radius).expect("it has a length and a radius").into(),
+        peer: Box::new(ParryCylinder::new(half_length, radius)),
     }
 }
 
@@ -72,7 +80,6 @@ fn peer_pose(pose: &Pose<Spatial>) -> Pose3 {
 }
 
 fn nudged(pose: &Pose<Spatial>, noise: &mut Noise) -> Pose<Spatial> {
-    use tumble_math::Rotation;
     Pose { position: pose.position + noise.vector(5e-5), rotation: pose.rotation.turned(noise.vector(1e-4)) }
 }
 
@@ -129,7 +136,8 @@ fn measure(name: &str, case: &Case, noise: &mut Noise) {
     );
 }
 
-fn main() {
+/// Prints a line for each kind of pair.
+pub fn narrow() {
     println!("{:<28}{:>9}{:>9}{:>9}{:>9}", "ns a pair", "fresh", "parry", "again", "parry");
     let mut noise = Noise(5);
     let half = dvec3(0.5, 0.4, 0.3);
@@ -164,9 +172,11 @@ fn main() {
         let case = Case { poses, a: hull(&mut noise, corners), b: hull(&mut noise, corners) };
         cases.push((name, case));
     }
-    // A word on the command line picks the cases that have it in their name.
-    let word = std::env::args().nth(1).filter(|word| !word.starts_with('-')).unwrap_or_default();
-    for (name, case) in cases.iter().filter(|(name, _)| name.contains(&word)) {
+    for (name, distance) in [("cylinders: overlapping", 0.7), ("cylinders: near", 0.95), ("cylinders: apart", 1.4)] {
+        let poses = (0..PAIRS).map(|_| random(&mut noise, distance)).collect();
+        cases.push((name, Case { poses, a: cylinder(0.5, 0.35), b: cylinder(0.5, 0.35) }));
+    }
+    for (name, case) in &cases {
         measure(name, case, &mut noise);
     }
 }
