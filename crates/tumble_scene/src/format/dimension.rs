@@ -124,8 +124,10 @@ impl Serialize for Absent {
 }
 
 impl<'de> Deserialize<'de> for Absent {
-    fn deserialize<D: Deserializer<'de>>(_: D) -> Result<Self, D::Error> {
-        Err(D::Error::custom("scenes of this dimension have no such field"))
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        // Programs write every field, this one as `()`; a person's file is held to the schema, which does not have it.
+        let nothing = <()>::deserialize(deserializer).map(|()| Self);
+        nothing.map_err(|_| D::Error::custom("scenes of this dimension have no such field"))
     }
 }
 

@@ -190,7 +190,7 @@ fn a_file_that_gives_no_shape_is_named_with_its_place_and_reason() -> Fallible {
         assert!(message.contains(&format!("the file \"{name}\" gives no shape: ")), "{message}");
         assert!(message.contains(reason), "{message}");
         assert!(message.contains("scene.ron:3:"), "{message}");
-        assert_eq!(message.matches("error").count(), 1, "{message}");
+        assert_eq!(message.matches("error:").count(), 1, "{message}");
     }
     Ok(())
 }
