@@ -236,7 +236,7 @@ impl<D: SceneDim> Batch<D> {
     ///
     /// When the numbers make no scene; says why.
     pub fn scene(&self, run: u64) -> Result<Scene<D>, String> {
-        self.checked(&self.values(run))
+        self.checked(&self.values(run)).map(|(scene, _)| scene)
     }
 
     /// Runs one of the runs.
@@ -278,28 +278,29 @@ impl<D: SceneDim> Batch<D> {
 
     /// The scene with these numbers, and its simulation.
     fn built(&self, values: &[f64]) -> Result<(Scene<D>, Simulation<D>), RunFailure> {
-        let scene = self.checked(values).map_err(RunFailure::Scene)?;
+        let (scene, materials) = self.checked(values).map_err(RunFailure::Scene)?;
         let failed = |error: BuildError| RunFailure::Scene(error.to_string());
-        let overlaps = initial_overlaps(&scene, &self.materials).map_err(failed)?;
+        let overlaps = initial_overlaps(&scene, &materials).map_err(failed)?;
         if !overlaps.is_empty() {
             let mut mistakes = Diagnostics::new("the scene", "");
             mistakes.extend(overlaps);
             return Err(RunFailure::Scene(mistakes.to_string()));
         }
-        let simulation = Simulation::with_materials(&scene, &self.materials).map_err(failed)?;
+        let simulation = Simulation::with_materials(&scene, &materials).map_err(failed)?;
         Ok((scene, simulation))
     }
 
-    /// The scene with these numbers, free of mistakes.
-    fn checked(&self, values: &[f64]) -> Result<Scene<D>, String> {
+    /// The scene with these numbers, free of mistakes, and its materials.
+    fn checked(&self, values: &[f64]) -> Result<(Scene<D>, MaterialLibrary), String> {
         let mut text = self.fixed[0].clone();
         for (&number, rest) in self.order.iter().zip(&self.fixed[1..]) {
             text.push_str(&format!("{:?}", values[number]));
             text.push_str(rest);
         }
         let scene = (D::scene_engine().of_plain)(&text)?;
-        scene.check(&self.materials).map_err(|mistakes| mistakes.to_string())?;
-        Ok(scene)
+        let materials = self.materials.of_variant(&scene);
+        scene.check(&materials).map_err(|mistakes| mistakes.to_string())?;
+        Ok((scene, materials))
     }
 
     /// Numbers in words.

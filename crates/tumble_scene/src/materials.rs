@@ -146,6 +146,13 @@ impl MaterialLibrary {
         library
     }
 
+    /// The library of a scene that differs from its own in numbers alone.
+    pub(crate) fn of_variant<D: Dialect>(&self, scene: &Scene<D>) -> Self {
+        let mut library = Self { surface: scene.surface, take: scene.take, ..self.clone() };
+        library.add(&scene.materials, &scene.pairs);
+        library
+    }
+
     /// Puts a table on top of the stack.
     pub fn add_table(&mut self, table: &MaterialTable) {
         self.add(&table.materials, &table.pairs);

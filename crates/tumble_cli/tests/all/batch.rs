@@ -63,7 +63,7 @@ fn what_a_batch_cannot_do_is_refused_before_the_first_run() {
     for (arguments, words) in [
         (&["--vary", "bodies.bal.velocity.x=0..1"][..], "there is no \"bal\" in bodies"),
         (&["--vary", "bodies.ball"], "a variation is written PATH=LOW..HIGH"),
-        (&["--show", "y:bal"], "there is no body `bal`; did you mean `ball`"),
+        (&["--show", "y:bal"], "there is no body `bal` (did you mean `ball`?)"),
         (&["--shard", "3/2"], "I/K with I from 1 to K"),
     ] {
         bench.tumble(["batch", "falling.ron", "--runs", "3"].iter().chain(arguments)).code(2).complains(words);

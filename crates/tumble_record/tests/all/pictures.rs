@@ -310,7 +310,7 @@ fn frames_show_contacts_and_springs() {
     let touching = recording.samples.iter().rposition(|sample| !sample.contacts.is_empty()).expect("bodies bounce");
     recording.samples.truncate(touching + 1);
     let last = |recording: &Recording| {
-        let settings = FrameSettings { count: 2, width: 160, height: 90 };
+        let settings = FrameSettings { count: 2, width: 480, height: 270 };
         Frames::new(recording, settings).picture(1)
     };
     let all = last(&recording);
