@@ -8,6 +8,7 @@ mod engine;
 mod profile;
 mod questions;
 
+use std::error::Error;
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
@@ -30,18 +31,24 @@ static ALLOCATOR: &StatsAlloc<std::alloc::System> = &INSTRUMENTED_SYSTEM;
 #[derive(Debug, Parser)]
 #[command(after_help = after_help())]
 struct Arguments {
-    /// A question, a scene or a series of scenes; all questions unless given.
+    /// A question, a scene or a series of scenes; all questions but `simbenchmark` unless given.
     #[arg(value_name = "QUESTION|SCENE", value_parser = what)]
     what: Option<What>,
     /// How to run scenes; `--steps` also of `settle` (600 unless given).
     #[command(flatten)]
     options: RunOptions,
-    /// Contact model; of scenes soft-step unless given, of `settle` impulse.
+    /// Contact model; of scenes soft-step unless given, of `settle` soft-step and impulse.
     #[arg(long, value_parser = contact_model)]
     contact: Option<ContactModel>,
     /// Tell on standard error how long each phase of a step took (scenes).
     #[arg(long)]
     profile: bool,
+    /// Scene of `simbenchmark`; all four unless given.
+    #[arg(long)]
+    scene: Option<String>,
+    /// Smallest time step of `simbenchmark` [s].
+    #[arg(long, default_value_t = 1e-4)]
+    smallest_step: f64,
     /// Bodies of `settle`.
     #[arg(long, default_value_t = 2000)]
     bodies: usize,
@@ -89,13 +96,15 @@ fn after_help() -> String {
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let done = match &arguments.what {
-        Some(What::Scenes(scenes)) => print_lines(scenes, &arguments.options, |plan| run_scene(&plan, &arguments)),
-        Some(What::Question(question)) => question.answer(&arguments).map_err(TumbleError::from),
-        None => Question::value_variants()
-            .iter()
-            .try_for_each(|question| question.answer(&arguments))
-            .map_err(TumbleError::from),
+    let done: Result<(), Box<dyn Error>> = match &arguments.what {
+        Some(What::Scenes(scenes)) => {
+            print_lines(scenes, &arguments.options, |plan| run_scene(&plan, &arguments)).map_err(Into::into)
+        }
+        Some(What::Question(question)) => question.answer(&arguments),
+        None => {
+            let quick = |question: &&Question| **question != Question::Simbenchmark;
+            Question::value_variants().iter().filter(quick).try_for_each(|question| question.answer(&arguments))
+        }
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

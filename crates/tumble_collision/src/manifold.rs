@@ -117,6 +117,12 @@ impl FeatureId {
         let (a, b) = (self.0 >> Self::INDEX_BITS & Self::INDEX_MASK, self.0 & Self::INDEX_MASK);
         if self.0 >> 30 == 2 { Some((a as usize, b as usize)) } else { None }
     }
+
+    /// The numbers of a's and b's edge, if two edges cross.
+    pub const fn as_edges(self) -> Option<(usize, usize)> {
+        let (a, b) = (self.0 >> Self::INDEX_BITS & Self::INDEX_MASK, self.0 & Self::INDEX_MASK);
+        if self.0 >> 30 == 3 { Some((a as usize, b as usize)) } else { None }
+    }
 }
 
 /// Whose corner (or round) makes a contact point.

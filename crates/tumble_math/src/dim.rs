@@ -25,6 +25,9 @@ pub trait Dim: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     /// ω × r: the velocity of a point at an arm of a turning body.
     fn spin(angular_velocity: Self::Angular, arm: Self::Vector) -> Self::Vector;
 
+    /// ω × L: what it takes to turn an angular momentum along with a body; nothing in the plane.
+    fn gyroscopic_torque(angular_velocity: Self::Angular, angular_momentum: Self::Angular) -> Self::Angular;
+
     /// The contact frame of a unit normal: columns normal, then tangents. In the plane the tangent is (n_y, −n_x).
     fn contact_frame(normal: Self::Vector) -> Self::Matrix;
 
@@ -73,6 +76,11 @@ impl Dim for Planar {
     }
 
     #[inline]
+    fn gyroscopic_torque(_: f64, _: f64) -> f64 {
+        0.0
+    }
+
+    #[inline]
     fn contact_frame(normal: DVec2) -> DMat2 {
         DMat2::from_cols(normal, DVec2::new(normal.y, -normal.x))
     }
@@ -97,6 +105,11 @@ impl Dim for Spatial {
     #[inline]
     fn spin(angular_velocity: DVec3, arm: DVec3) -> DVec3 {
         angular_velocity.cross(arm)
+    }
+
+    #[inline]
+    fn gyroscopic_torque(angular_velocity: DVec3, angular_momentum: DVec3) -> DVec3 {
+        angular_velocity.cross(angular_momentum)
     }
 
     fn contact_frame(normal: DVec3) -> DMat3 {

@@ -23,6 +23,10 @@ pub trait Rotation<W: Angular>: Copy + Debug + Default + PartialEq + Send + Sync
     /// This rotation followed by a turn about a fixed world axis: exp(angle) R [rad].
     fn turned(&self, angle: W) -> Self;
 
+    /// The turn about a fixed world axis that makes another rotation of this one: `other = self.turned(angle)`. In space the shorter way,
+    /// by at most π [rad].
+    fn angle_to(&self, other: &Self) -> W;
+
     /// This rotation in the axes of a frame: frame⁻¹ R.
     fn seen_from(&self, frame: &Self) -> Self;
 
@@ -101,6 +105,10 @@ impl Rotation<f64> for PlanarRotation {
     fn turned(&self, angle: f64) -> Self {
         // A body that does not turn keeps its bits, and costs no trigonometry.
         if angle == 0.0 { *self } else { Self::from_angle(self.angle + angle) }
+    }
+
+    fn angle_to(&self, other: &Self) -> f64 {
+        other.angle - self.angle
     }
 
     fn seen_from(&self, frame: &Self) -> Self {
@@ -191,6 +199,10 @@ impl Rotation<DVec3> for SpatialRotation {
         let v = angle * ratio;
         let product = DQuat::from_xyzw(v.x, v.y, v.z, cos) * self.quaternion;
         Self { quaternion: product * (1.0 / product.length()) }
+    }
+
+    fn angle_to(&self, other: &Self) -> DVec3 {
+        self.turn_to(other).rotation_vector()
     }
 
     fn seen_from(&self, frame: &Self) -> Self {

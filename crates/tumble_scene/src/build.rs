@@ -8,9 +8,9 @@ use thiserror::Error;
 use tumble_math::{Linear, Planar, Rotation, Vector};
 use tumble_sim::{
     Anchor, AppliedForce, BodyId, CentreOverride, Course, GravityScale, IgnoredPairs, ImpulseSettings, InertiaOverride,
-    Joint, LinearDrag, LinearVelocity, Lock, LockedAxes, MassOverride, MaterialId, Orientation, Part, PenaltySettings,
-    Pinned, Position, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings, StepError,
-    VelocityLcpSettings,
+    Joint, Keyframes, LinearDrag, LinearVelocity, Lock, LockedAxes, MassOverride, MaterialId, Orientation, Part,
+    PenaltySettings, Pinned, Position, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings,
+    StepError, VelocityLcpSettings,
 };
 use tumble_solver::soft_step::SoftSettings;
 use tumble_solver::{Surface, velocity_lcp};
@@ -20,8 +20,9 @@ use crate::diagnostics::Diagnostics;
 use crate::dim::{PartError, SceneDim};
 use crate::expand::ExpandedBody;
 use crate::format::{
-    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Groups, ImpulseEntry, Integrator, JointEntry, PartEntry,
-    PenaltyEntry, PenaltyLaw, RestitutionLaw, Scene, SoftStepEntry, SpringEntry, VelocityLcpEntry, VelocitySolver,
+    AnchorEntry, Axes, Axis, BodyEntry, BodyKind, ForceEntry, Groups, ImpulseEntry, Integrator, JointEntry, Keyframe,
+    PartEntry, PenaltyEntry, PenaltyLaw, RestitutionLaw, Scene, SoftStepEntry, SpringEntry, VelocityLcpEntry,
+    VelocitySolver,
 };
 use crate::load::Loaded;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
@@ -333,7 +334,19 @@ fn add_options<D: SceneDim>(simulation: &mut Simulation<D>, entity: Entity, body
         let rotation = if locked(Axis::Angle) { Lock::Locked } else { Lock::Free };
         entity.insert(LockedAxes { translation, rotation });
     }
-    D::insert_keyframes(body, &mut entity);
+    if !body.keyframes.is_empty() {
+        entity.insert(keyframes(body));
+    }
+}
+
+/// The path of the centre of mass that keyframes of the design frame mean.
+fn keyframes<D: SceneDim>(body: &BodyEntry<D>) -> Keyframes<D::Vector, D::Rotation> {
+    let centre = body.centre.unwrap_or(D::Vector::ZERO);
+    let frame = |frame: &Keyframe<D>| {
+        let rotation = D::keyframe_rotation(frame).unwrap_or_default();
+        tumble_sim::Keyframe { time: frame.time, position: frame.at + rotation.rotate(centre), rotation }
+    };
+    Keyframes(body.keyframes.iter().map(frame).collect())
 }
 
 fn ignore_pairs<D: SceneDim>(simulation: &mut Simulation<D>, bodies: &[ExpandedBody<D>]) {

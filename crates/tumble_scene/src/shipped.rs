@@ -64,18 +64,24 @@ pub const SHIPPED: &[Shipped] = shipped![
     "thrown_uphill",
     "wedge";
     "spatial":
+    "bouncing_49",
     "box_corner_impact",
     "box_stack_3d",
+    "card_house_3d",
     "domino_spiral",
     "edge_edge",
+    "elastic_666",
     "gyroscope",
     "incline_3d",
     "opening_pile",
+    "pulled_board",
     "rolling_ball",
     "slip_to_roll",
+    "spheres_666",
     "symmetric_precession",
     "t_handle",
     "table_four_legs",
+    "tippe_top",
     "vertex_face";
 ];
 

@@ -13,13 +13,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use bevy_ecs::prelude::{Entity, RelationshipTarget};
+use bevy_ecs::prelude::{Entity, EntityRef, RelationshipTarget};
 use thiserror::Error;
 use tumble_math::{Linear, Planar, Rotation, Vector};
 use tumble_sim::{
     Anchor, AppliedForce, BodyIndex, BodyTable, BodyView, CentreOverride, GravityScale, IgnoredPairs, ImpulseSettings,
-    InertiaOverride, Joint, JointTable, LinearDrag, Lock, LockedAxes, MassOverride, MaterialId, Materials, Parts,
-    PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings, StepError,
+    InertiaOverride, Joint, JointTable, Keyframes, LinearDrag, Lock, LockedAxes, MassOverride, MaterialId, Materials,
+    Parts, PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings,
+    StepError,
 };
 use tumble_solver::soft_step::SoftSettings;
 use tumble_solver::{Surface, velocity_lcp};
@@ -29,8 +30,8 @@ use crate::dim::{PartFields, SceneDim};
 use crate::exact::before_shift;
 use crate::format::{
     AnchorEntry, Axes, Axis, BodyEntry, BodyKind, Drag, Expectation, ForceEntry, FrictionEntry, Groups, ImpulseEntry,
-    Integrator, JointEntry, MaterialEntry, ModelEntries, PairEntry, PenaltyEntry, PenaltyLaw, RestitutionLaw, Scene,
-    SoftStepEntry, SpringEntry, VelocityLcpEntry, VelocitySolver,
+    Integrator, JointEntry, Keyframe, MaterialEntry, ModelEntries, PairEntry, PenaltyEntry, PenaltyLaw, RestitutionLaw,
+    Scene, SoftStepEntry, SpringEntry, VelocityLcpEntry, VelocitySolver,
 };
 use crate::initial_overlaps;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
@@ -293,9 +294,24 @@ fn body<D: SceneDim>(
         ..BodyEntry::default()
     };
     D::write_rotation(&mut body, view.rotation());
-    D::write_keyframes(&entity, &mut body);
+    write_keyframes(&entity, &mut body);
     write_parts(simulation, view.entity(), &mut body)?;
     Ok(body)
+}
+
+/// Writes the keyframes that a body of the world has.
+fn write_keyframes<D: SceneDim>(entity: &EntityRef, body: &mut BodyEntry<D>) {
+    let Some(path) = entity.get::<Keyframes<D::Vector, D::Rotation>>() else { return };
+    // The path gives the velocity.
+    (body.velocity, body.angular_velocity) = (D::Vector::ZERO, D::Angular::ZERO);
+    let centre = body.centre.unwrap_or(D::Vector::ZERO);
+    let written = |frame: &tumble_sim::Keyframe<D::Vector, D::Rotation>| {
+        let at = before_shift(frame.position, frame.rotation.rotate(centre));
+        let mut entry = Keyframe { time: frame.time, at, ..Keyframe::default() };
+        D::write_keyframe_rotation(&mut entry, frame.rotation);
+        entry
+    };
+    body.keyframes = path.0.iter().map(written).collect();
 }
 
 fn locked_axes<D: SceneDim>(locked: &LockedAxes<D::Vector>) -> Vec<Axis> {

@@ -76,6 +76,14 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> + SoftDim {
     /// Radius by which the corners of a shape are rounded [m].
     fn rounding(shape: &Self::Shape) -> f64;
 
+    /// A point of the axis about which a shape is round, and a unit vector along it, in the frame of the shape; `None` for shapes that are
+    /// round about no axis or about all.
+    fn round_axis(shape: &Self::Shape) -> Option<[Self::Vector; 2]>;
+
+    /// Unit vector along the edge of a number in a contact's feature, in the frame of the shape; `None` where the number means no
+    /// straight edge.
+    fn edge_direction(shape: &Self::Shape, number: usize) -> Option<Self::Vector>;
+
     /// Contact points of two shapes.
     fn collide(a: Posed<'_, Self>, b: Posed<'_, Self>, query: &ContactQuery<'_, Self>) -> Self::Manifold;
 

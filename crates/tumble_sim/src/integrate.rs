@@ -81,20 +81,27 @@ pub fn integrate_velocities<D: Dim>(
 ///
 /// ```text
 /// v_n += ½ (a_n − a_{n−1}) Δt
+/// L_n += ½ (τ_n − τ_{n−1}) Δt
 /// ```
+///
+/// Torques are compared rather than angular accelerations, since I turns with the body.
 pub fn remember_velocities<D: Dim>(
     clock: Res<Clock>,
     mut bodies: Query<(
         &Acceleration<VectorOf<D>>,
         &AngularAcceleration<AngularOf<D>>,
+        &Torque<AngularOf<D>>,
+        &InverseInertia<D::Inertia>,
+        &Orientation<D::Rotation>,
         &mut LinearVelocity<VectorOf<D>>,
         &mut AngularVelocity<AngularOf<D>>,
         &mut PreviousVelocity<VectorOf<D>, AngularOf<D>>,
     )>,
 ) {
     let half_step = 0.5 * clock.part_before();
-    for (a, alpha, mut velocity, mut angular_velocity, mut previous) in &mut bodies {
-        if let Some((a_before, alpha_before)) = previous.accelerations.replace((a.0, alpha.0)) {
+    for (a, alpha, torque, inverse, orientation, mut velocity, mut angular_velocity, mut previous) in &mut bodies {
+        if let Some((a_before, torque_before)) = previous.drive.replace((a.0, torque.0)) {
+            let alpha_before = inverse.0.in_world(&orientation.0).apply(torque_before);
             velocity.bypass_change_detection().0 += (a.0 - a_before) * half_step;
             angular_velocity.bypass_change_detection().0 += (alpha.0 - alpha_before) * half_step;
         }

@@ -52,7 +52,7 @@ pub(crate) fn needs<D: Geometry>(world: &mut World) -> BTreeSet<Need> {
     need(any::<QuadraticDrag>(world), Need::QuadraticDrag);
     need(any::<Spring<D::Vector>>(world), Need::Springs);
     need(any::<AppliedForce<D>>(world), Need::AppliedForces);
-    need(any::<Keyframes<D::Vector, D::Angular>>(world), Need::Keyframes);
+    need(any::<Keyframes<D::Vector, D::Rotation>>(world), Need::Keyframes);
     need(any::<PreviousVelocity<D::Vector, D::Angular>>(world), Need::Ballistic);
     need(world.contains_resource::<Ledger>(), Need::Ledger);
     let contacts = world.resource::<Colliders<D>>().as_slice().len() > 1;

@@ -219,7 +219,7 @@ pub(crate) fn add_systems<D: Geometry>(need: Need, step: &mut Schedule, begin: &
         Need::QuadraticDrag => step.add_systems(apply_quadratic_drag::<D>.in_set(Place::QuadraticDrag)),
         Need::Springs => step.add_systems(apply_springs::<D>.in_set(Place::Springs)),
         Need::AppliedForces => step.add_systems(apply_forces::<D>.in_set(Place::Applied)),
-        Need::Keyframes => step.add_systems(follow_keyframes.in_set(Place::Keyframes)),
+        Need::Keyframes => step.add_systems(follow_keyframes::<D>.in_set(Place::Keyframes)),
         Need::Ballistic => step.add_systems(remember_velocities::<D>.in_set(Place::Remember)),
         Need::Detection => {
             begin.add_systems(detection::<D>());

@@ -7,6 +7,8 @@ mod scenes;
 mod simbenchmark;
 mod space;
 
+use std::error::Error;
+
 use clap::ValueEnum;
 use tumble_sim::{ContactModel, ContactReport, StepError};
 use tumble_solver::Ending;
@@ -29,7 +31,7 @@ pub enum Question {
     Narrow,
     /// The shipped scene `opening_pile`: faster than real time? And cost per contact from 1000 to 10 000 contacts in space.
     Space,
-    /// SIMBENCHMARK
+    /// SimBenchmark's tables of errors with our rows; takes minutes, so only if asked for.
     Simbenchmark,
     /// Bytes per body and per contact pair.
     Memory,
@@ -37,20 +39,18 @@ pub enum Question {
 
 impl Question {
     /// Measures, and prints the answer.
-    pub fn answer(self, arguments: &Arguments) -> Result<(), StepError> {
+    pub fn answer(self, arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         match self {
-            Self::FreeRod => free_rod(arguments),
-            Self::Spread => spread(arguments),
-            Self::Settle => settle(arguments),
-            Self::Models => models::models(),
-            Self::Narrow => {
-                narrow::narrow();
-                Ok(())
-            }
-            Self::Space => space::space(arguments.rounds),
-            Self::Simbenchmark => simbenchmark::simbenchmark(),
-            Self::Memory => memory(),
+            Self::FreeRod => free_rod(arguments)?,
+            Self::Spread => spread(arguments)?,
+            Self::Settle => settle(arguments)?,
+            Self::Models => models::models()?,
+            Self::Narrow => narrow::narrow(),
+            Self::Space => space::space(arguments.rounds)?,
+            Self::Simbenchmark => simbenchmark::simbenchmark(arguments.scene.as_deref(), arguments.smallest_step)?,
+            Self::Memory => memory()?,
         }
+        Ok(())
     }
 }
 
@@ -84,8 +84,16 @@ fn spread(arguments: &Arguments) -> Result<(), StepError> {
 }
 
 fn settle(arguments: &Arguments) -> Result<(), StepError> {
+    match arguments.contact {
+        Some(contact) => settle_under(contact, arguments),
+        None => [ContactModel::SoftStep, ContactModel::Impulse]
+            .into_iter()
+            .try_for_each(|contact| settle_under(contact, arguments)),
+    }
+}
+
+fn settle_under(contact: ContactModel, arguments: &Arguments) -> Result<(), StepError> {
     let steps = arguments.options.steps.unwrap_or(600);
-    let contact = arguments.contact.unwrap_or_default();
     let mut settled = None;
     // Every round takes the same steps: the fastest time of each one counts.
     let mut fastest = vec![f64::INFINITY; steps as usize];

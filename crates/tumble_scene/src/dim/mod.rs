@@ -6,7 +6,6 @@ mod spatial;
 use std::fmt;
 use std::path::Path;
 
-use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use thiserror::Error;
 use tumble_math::{Bounds, Spatial, SpatialRotation};
 use tumble_record::RecordDim;
@@ -132,14 +131,11 @@ pub trait SceneDim: Dialect + RecordDim {
     /// Moves a body [m] and turns it [degrees], with its keyframes.
     fn displace(body: &mut BodyEntry<Self>, offset: Self::Vector, degrees: Self::Angular);
 
-    /// Keyframes as written; there are none in space.
-    fn keyframes(body: &BodyEntry<Self>) -> &[Keyframe];
+    /// How the design frame is turned at a keyframe; `None` where what is written means nothing.
+    fn keyframe_rotation(frame: &Keyframe<Self>) -> Option<Self::Rotation>;
 
-    /// Gives a body of the world its keyframes.
-    fn insert_keyframes(body: &BodyEntry<Self>, entity: &mut EntityWorldMut);
-
-    /// Writes the keyframes that a body of the world has.
-    fn write_keyframes(entity: &EntityRef, body: &mut BodyEntry<Self>);
+    /// Writes how the design frame is turned at a keyframe.
+    fn write_keyframe_rotation(frame: &mut Keyframe<Self>, rotation: Self::Rotation);
 
     /// The joint that an entry means, of which the anchors are at these places at the start [m].
     fn joint(kind: &<Self as Dialect>::JointKind, ends: [Self::Vector; 2]) -> <Self::Vector as InDim>::JointKind;

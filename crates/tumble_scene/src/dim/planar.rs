@@ -2,15 +2,13 @@
 
 use std::path::Path;
 
-use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use glam::DVec2;
 use tumble_math::{Bounds, Planar, PlanarRotation, Pose, Rotation, SpatialRotation};
 use tumble_shape::{MassProperties, PlanarShape};
-use tumble_sim::{CentreOverride, Keyframes};
 
 use super::{AngularClaim, PartError, PartFields, SceneDim};
 use crate::engine::SceneEngine;
-use crate::exact::{before_normalization, before_shift, degrees};
+use crate::exact::{before_normalization, degrees};
 use crate::expect::Measured;
 use crate::format::{
     BodyEntry, DiscPart, HalfPlanePart, JointKind, Keyframe, Part, PolygonPart, RodPart, ScalarExpectation,
@@ -104,34 +102,12 @@ impl SceneDim for Planar {
         }
     }
 
-    fn keyframes(body: &BodyEntry) -> &[Keyframe] {
-        &body.keyframes
+    fn keyframe_rotation(frame: &Keyframe) -> Option<PlanarRotation> {
+        Some(PlanarRotation::from_degrees(frame.angle_degrees))
     }
 
-    fn insert_keyframes(body: &BodyEntry, entity: &mut EntityWorldMut) {
-        if body.keyframes.is_empty() {
-            return;
-        }
-        let centre = body.centre.unwrap_or(DVec2::ZERO);
-        let frames = body.keyframes.iter().map(|frame| {
-            let rotation = PlanarRotation::from_degrees(frame.angle_degrees);
-            let position = frame.at + rotation.rotate(centre);
-            tumble_sim::Keyframe { time: frame.time, position, angle: rotation.angle() }
-        });
-        entity.insert(Keyframes(frames.collect()));
-    }
-
-    fn write_keyframes(entity: &EntityRef, body: &mut BodyEntry) {
-        let Some(path) = entity.get::<Keyframes<DVec2, f64>>() else { return };
-        // The path gives the velocity.
-        (body.velocity, body.angular_velocity) = (DVec2::ZERO, 0.0);
-        let centre = entity.get::<CentreOverride<DVec2>>().map_or(DVec2::ZERO, |centre| centre.0);
-        let frames = path.0.iter().map(|frame| Keyframe {
-            time: frame.time,
-            at: before_shift(frame.position, PlanarRotation::from_angle(frame.angle).rotate(centre)),
-            angle_degrees: degrees(frame.angle),
-        });
-        body.keyframes = frames.collect();
+    fn write_keyframe_rotation(frame: &mut Keyframe, rotation: PlanarRotation) {
+        frame.angle_degrees = degrees(rotation.angle());
     }
 
     fn joint(kind: &JointKind, [a, b]: [DVec2; 2]) -> tumble_sim::JointKind {

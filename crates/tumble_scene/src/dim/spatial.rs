@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use glam::{DQuat, DVec3};
 use tumble_math::{Bounds, Pose, Rotation, Spatial, SpatialRotation, SymmetricTensor};
 use tumble_record::RecordDim;
@@ -162,7 +161,7 @@ impl SceneDim for Spatial {
     }
 
     fn write_rotation(body: &mut BodyEntry<Self>, rotation: SpatialRotation) {
-        body.orientation = (rotation != SpatialRotation::IDENTITY).then(|| written(&rotation));
+        body.orientation = entry_of(&rotation);
     }
 
     fn random_turn(most_degrees: f64, mut draw: impl FnMut() -> f64) -> DVec3 {
@@ -172,20 +171,25 @@ impl SceneDim for Spatial {
 
     fn displace(body: &mut BodyEntry<Self>, offset: DVec3, degrees: DVec3) {
         body.at += offset;
+        body.keyframes.iter_mut().for_each(|frame| frame.at += offset);
         if degrees != DVec3::ZERO {
             let turn = DVec3::new(degrees.x.to_radians(), degrees.y.to_radians(), degrees.z.to_radians());
             let rotation = Self::design_rotation(body).turned(turn);
             Self::write_rotation(body, rotation);
+            for frame in &mut body.keyframes {
+                let rotation = Self::keyframe_rotation(frame).unwrap_or_default().turned(turn);
+                Self::write_keyframe_rotation(frame, rotation);
+            }
         }
     }
 
-    fn keyframes(_: &BodyEntry<Self>) -> &[Keyframe] {
-        &[]
+    fn keyframe_rotation(frame: &Keyframe<Self>) -> Option<SpatialRotation> {
+        rotation_of(frame.orientation.as_ref())
     }
 
-    fn insert_keyframes(_: &BodyEntry<Self>, _: &mut EntityWorldMut) {}
-
-    fn write_keyframes(_: &EntityRef, _: &mut BodyEntry<Self>) {}
+    fn write_keyframe_rotation(frame: &mut Keyframe<Self>, rotation: SpatialRotation) {
+        frame.orientation = entry_of(&rotation);
+    }
 
     fn joint(kind: &SpatialJointKind, [a, b]: [DVec3; 2]) -> tumble_sim::SpatialJointKind {
         match *kind {
@@ -253,6 +257,11 @@ impl SceneDim for Spatial {
 /// The rotation of an entry; `None` for one that means nothing.
 fn rotation_of(entry: Option<&OrientationEntry>) -> Option<SpatialRotation> {
     entry.map_or(Some(SpatialRotation::IDENTITY), OrientationEntry::rotation)
+}
+
+/// The entry of a rotation; none for one that does not turn.
+fn entry_of(rotation: &SpatialRotation) -> Option<OrientationEntry> {
+    (*rotation != SpatialRotation::IDENTITY).then(|| written(rotation))
 }
 
 /// The entry of a rotation, which becomes that rotation to the last bit where one can be found.

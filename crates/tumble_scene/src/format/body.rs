@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -67,9 +66,9 @@ pub struct BodyEntry<D: Dialect = Planar> {
     /// Axes along which the body never moves. Default none.
     #[serde(default)]
     pub locked: Vec<Axis>,
-    /// Poses that a kinematic body of the plane passes through, in rising order of time; linear in between, held outside. Default none.
+    /// Poses that a kinematic body passes through, in rising order of time; linear in between, held outside. Default none.
     #[serde(default)]
-    pub keyframes: D::InPlane<Vec<Keyframe>>,
+    pub keyframes: Vec<Keyframe<D>>,
     /// Names of bodies that this one passes through. The name of a repeated body means all of its copies. Default none.
     #[serde(default)]
     pub ignores: Vec<String>,
@@ -129,18 +128,22 @@ pub struct Drag {
     pub turning: f64,
 }
 
-/// A pose at a time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Keyframe {
+/// A pose at a time. In space the body turns evenly about one axis from one to the next, the shorter way.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, bound = "D: Dialect")]
+#[schemars(bound = "D: Dialect")]
+pub struct Keyframe<D: Dialect = Planar> {
     /// When [s].
     pub time: f64,
     /// Where the origin of the design frame is then [m].
-    #[schemars(with = "(f64, f64)")]
-    pub at: DVec2,
-    /// Angle of the design frame then, counted over turns [degrees]. Default 0.
+    #[schemars(with = "D::VectorText")]
+    pub at: D::Vector,
+    /// Angle of the design frame then, counted over turns [degrees]; in the plane. Default 0.
     #[serde(default)]
-    pub angle_degrees: f64,
+    pub angle_degrees: D::InPlane<f64>,
+    /// How the design frame is turned then; in space. Default not at all.
+    #[serde(default)]
+    pub orientation: D::InSpace<Option<OrientationEntry>>,
 }
 
 /// Many bodies from one.
@@ -299,7 +302,7 @@ impl<D: Dialect> Default for BodyEntry<D> {
             drag: Drag::default(),
             pinned: false,
             locked: Vec::new(),
-            keyframes: D::InPlane::default(),
+            keyframes: Vec::new(),
             ignores: Vec::new(),
             groups: Groups::default(),
             collides_with: Groups::default(),

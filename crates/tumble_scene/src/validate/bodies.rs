@@ -205,9 +205,15 @@ fn motion<D: SceneDim>(path: &ScenePath, body: &BodyEntry<D>, found: &mut Findin
             "write `kind: Kinematic` for a body that follows its velocity",
         );
     }
-    let keyframes = D::keyframes(body);
+    let keyframes = &body.keyframes;
     if keyframes.is_empty() {
         return;
+    }
+    for (index, frame) in keyframes.iter().enumerate() {
+        if D::keyframe_rotation(frame).is_none() {
+            let path = path.field("keyframes").index(index).field("orientation");
+            found.error(&path, "the orientation of a keyframe has no direction", "an axis or the quaternion is zero");
+        }
     }
     if body.kind != BodyKind::Kinematic {
         found.error(

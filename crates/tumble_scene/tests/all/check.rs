@@ -172,19 +172,27 @@ fn samples_of_the_steps_that_are_watched_give_the_verdict_of_all_steps() -> Resu
 /// What a scene of the plane and the one of space that it is at z = 0 have in common.
 const TILTED_BOX: &str = r#"
     format: 1, duration: 1, dt: 0.001, contact: VelocityLcp,
-    materials: { "default": (static_friction: 0.5, kinetic_friction: 0.4) },
 "#;
 
 #[test]
 fn a_planar_scene_embedded_in_space_moves_alike() -> Result<(), Box<dyn std::error::Error>> {
+    moves_alike(r#"materials: { "default": (static_friction: 0.5, kinetic_friction: 0.4) }"#)
+}
+
+#[test]
+fn a_planar_scene_embedded_in_space_bounces_alike() -> Result<(), Box<dyn std::error::Error>> {
+    moves_alike(r#"materials: { "default": (static_friction: 0.5, kinetic_friction: 0.4, restitution: 0.3) }"#)
+}
+
+fn moves_alike(materials: &str) -> Result<(), Box<dyn std::error::Error>> {
     let planar = format!(
-        r#"({TILTED_BOX} bodies: [
+        r#"({TILTED_BOX} {materials}, bodies: [
             (name: "floor", kind: Static, parts: [HalfPlane()]),
             (name: "box", at: (0, 0.8), angle_degrees: 25, velocity: (0.5, 0), angular_velocity: -1.5, parts: [Box(size: (1, 0.5), mass: 2)]),
         ])"#
     );
     let spatial = format!(
-        r#"({TILTED_BOX} dimension: Spatial, bodies: [
+        r#"({TILTED_BOX} {materials}, dimension: Spatial, bodies: [
             (name: "floor", kind: Static, parts: [HalfSpace()]),
             (name: "box", at: (0, 0.8, 0), orientation: Turn(axis: (0, 0, 1), angle_degrees: 25), velocity: (0.5, 0, 0), angular_velocity: (0, 0, -1.5),
                 parts: [Box(size: (1, 0.5, 0.7), mass: 2)]),

@@ -204,7 +204,11 @@ fn body() -> impl Strategy<Value = BodyEntry> {
             pinned: flag,
             locked: if flag { vec![Axis::Angle, Axis::Y] } else { Vec::new() },
             drag: Drag { linear: angle_degrees, quadratic: 0.0, turning: 0.0 },
-            keyframes: if flag { vec![Keyframe { time: 1.0, at, angle_degrees }] } else { Vec::new() },
+            keyframes: if flag {
+                vec![Keyframe { time: 1.0, at, angle_degrees, ..Keyframe::default() }]
+            } else {
+                Vec::new()
+            },
             repeat,
             ..BodyEntry::default()
         },

@@ -256,8 +256,13 @@ fn body(index: usize) -> impl Strategy<Value = BodyEntry> {
                 body.kind = BodyKind::Kinematic;
                 (body.velocity, body.angular_velocity) = (DVec2::ZERO, 0.0);
                 body.keyframes = vec![
-                    Keyframe { time: 0.1, at: body.at, angle_degrees },
-                    Keyframe { time: 0.7, at: body.at + velocity, angle_degrees: angle_degrees + 50.0 },
+                    Keyframe { time: 0.1, at: body.at, angle_degrees, ..Keyframe::default() },
+                    Keyframe {
+                        time: 0.7,
+                        at: body.at + velocity,
+                        angle_degrees: angle_degrees + 50.0,
+                        ..Keyframe::default()
+                    },
                 ];
             }
             body

@@ -88,8 +88,8 @@ pub struct PreviousVelocity<V: Vector, W: Angular> {
     pub linear: V,
     /// Rate of turn at the start of the step [rad/s].
     pub angular: W,
-    /// Linear and angular acceleration of the step before; `None` in the first [m/s², rad/s²].
-    pub accelerations: Option<(V, W)>,
+    /// Acceleration and torque of the step before; `None` in the first [m/s², N·m].
+    pub drive: Option<(V, W)>,
 }
 
 /// What moves a body.

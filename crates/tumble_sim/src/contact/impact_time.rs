@@ -182,7 +182,7 @@ where
     D::Angular: 'a,
 {
     for mut previous in previous {
-        previous.bypass_change_detection().accelerations = None;
+        previous.bypass_change_detection().drive = None;
     }
 }
 

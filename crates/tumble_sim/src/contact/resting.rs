@@ -5,7 +5,7 @@
 
 use bevy_ecs::prelude::*;
 use tumble_collision::CornerOf;
-use tumble_math::{Dim, Linear, Matrix, Vector};
+use tumble_math::{Dim, Inertia, Linear, Matrix, Pose, Rotation, Vector};
 use tumble_solver::contact::tangential;
 use tumble_solver::joint::{JointBlock, JointRow};
 use tumble_solver::resting_lcp::{self, Gap, NormalCarrier, RestingLcp, RestingReport, RestingSettings};
@@ -13,7 +13,7 @@ use tumble_solver::{ContactRow, Slip, SolverBody};
 
 use super::problem::{BodyQuery, ContactProblem, ContactReport, PairQuery};
 use super::{ContactManifold, ContactPair};
-use crate::body::{BodyTable, Force, Torque};
+use crate::body::{BodyInertia, BodyTable, Force, Torque};
 use crate::contact::Colliders;
 use crate::geometry::Geometry;
 use crate::joint::{JointProblem, JointTable};
@@ -29,6 +29,8 @@ pub struct RestingModel<D: Dim> {
     /// Row of the contact problem of each row here.
     of_problem: Vec<u32>,
     gaps: Vec<Gap<D>>,
+    /// Poses of the bodies, by rank.
+    poses: Vec<Pose<D>>,
     /// Slip of each row before its forces act, in the contact frame; zero where it is round-off [m/s].
     slips: Vec<D::Vector>,
     accelerations: Vec<resting_lcp::Acceleration<D>>,
@@ -48,6 +50,7 @@ impl<D: Dim> Default for RestingModel<D> {
             rows: Vec::new(),
             of_problem: Vec::new(),
             gaps: Vec::new(),
+            poses: Vec::new(),
             slips: Vec::new(),
             accelerations: Vec::new(),
             forces: Vec::new(),
@@ -77,7 +80,7 @@ pub fn apply_resting_forces<D: Geometry>(
     mut books: Option<ResMut<Books<D>>>,
     mut pairs: PairQuery<D>,
     bodies: BodyQuery<D>,
-    mut forces: Query<(&mut Force<D::Vector>, &mut Torque<D::Angular>)>,
+    mut forces: Query<(&mut Force<D::Vector>, &mut Torque<D::Angular>, &BodyInertia<D::Inertia>)>,
 ) {
     let (problem, model) = (&mut *problem, &mut *model);
     model.unsolved = false;
@@ -88,15 +91,20 @@ pub fn apply_resting_forces<D: Geometry>(
     }
     problem.gather_bodies(&bodies, table.entries().len());
     joints.build(&joint_table, ContactProblem::poses(&bodies), &problem.bodies);
+    model.poses.resize(problem.bodies.len(), Pose::default());
+    ContactProblem::poses(&bodies).for_each(|(rank, pose)| model.poses[rank as usize] = pose);
     model.gather(problem, &settings, &colliders, &pairs);
     model.accelerations.clear();
     model.accelerations.resize(problem.bodies.len(), resting_lcp::Acceleration::default());
     for (rank, entry) in table.entries().iter().enumerate() {
-        if let Ok((force, torque)) = forces.get(entry.entity) {
+        if let Ok((force, torque, inertia)) = forces.get(entry.entity) {
             let body = &problem.bodies[rank];
+            // Euler's equation: part of the torque turns the angular momentum along.
+            let momentum = inertia.0.in_world(&model.poses[rank].rotation).apply(body.angular_velocity);
+            let gyroscopic = D::gyroscopic_torque(body.angular_velocity, momentum);
             model.accelerations[rank] = resting_lcp::Acceleration {
                 linear: force.0.scale_by(body.inverse_mass),
-                angular: tumble_math::Inertia::apply(&body.inverse_inertia, torque.0),
+                angular: body.inverse_inertia.apply(torque.0 - gyroscopic),
             };
         }
     }
@@ -111,7 +119,7 @@ pub fn apply_resting_forces<D: Geometry>(
     // Joints act in phase 3, as impulses.
     let mut push = |body: u32, arm: D::Vector, force: D::Vector| {
         if let Some(entry) = table.entries().get(body as usize)
-            && let Ok((mut sum, mut torque)) = forces.get_mut(entry.entity)
+            && let Ok((mut sum, mut torque, _)) = forces.get_mut(entry.entity)
         {
             sum.bypass_change_detection().0 += force;
             torque.bypass_change_detection().0 += D::torque(arm, force);
@@ -161,7 +169,7 @@ impl<D: Geometry> RestingModel<D> {
         self.slips.clear();
         for (i, (row, source)) in problem.rows.iter().zip(&problem.sources).take(problem.touching).enumerate() {
             let Ok((_, pair, manifold, _)) = pairs.get(source.entity) else { continue };
-            let gap = gap(row, pair, manifold, source.point, colliders);
+            let gap = gap(row, pair, manifold, source.point, colliders, &self.poses);
             // A gap that opens faster than gravity could make up for within the step is no rest, unless the bodies turned that far in the
             // last one: their velocities are tangents.
             let turning = 1.5 * gap.drift(row, &problem.bodies)[0].abs() * settings.dt;
@@ -213,17 +221,21 @@ impl<D: Geometry> RestingModel<D> {
     }
 }
 
-/// What the gap of a point is measured between: corners and sides as they are, rounds by their centres.
+/// What the gap of a point is measured between: corners and sides as they are, rounds and circles by their centres.
 fn gap<D: Geometry>(
     row: &ContactRow<D>,
     pair: &ContactPair,
     manifold: &ContactManifold<D>,
     point: u8,
     colliders: &Colliders<D>,
+    poses: &[Pose<D>],
 ) -> Gap<D> {
-    let corner = D::points(&manifold.0)[point as usize].feature.corner();
+    let feature = D::points(&manifold.0)[point as usize].feature;
+    let corner = feature.corner();
     let normal = row.normal();
-    let round = |k: usize| D::rounding(&colliders.as_slice()[pair.colliders[k] as usize].shape);
+    let shape = |k: usize| &colliders.as_slice()[pair.colliders[k] as usize].shape;
+    let rotation = |k: usize| &poses[pair.bodies[k] as usize].rotation;
+    let round = |k: usize| D::rounding(shape(k));
     let inwards = |k: usize| round(k) + 0.5 * row.separation;
     let (mut feature_a, mut feature_b) = (row.arm_a, row.arm_b);
     if corner != CornerOf::B && round(0) > 0.0 {
@@ -235,7 +247,19 @@ fn gap<D: Geometry>(
     let carrier = match corner {
         CornerOf::A => NormalCarrier::B,
         CornerOf::B => NormalCarrier::A,
-        CornerOf::Both => NormalCarrier::Line,
+        CornerOf::Both => {
+            let edge = |k: usize, number| Some(rotation(k).rotate(D::edge_direction(shape(k), number)?));
+            let edges = feature.as_edges().and_then(|(of_a, of_b)| edge(0, of_a).zip(edge(1, of_b)));
+            edges.map_or(NormalCarrier::Line, |(of_a, of_b)| NormalCarrier::Edges(of_a, of_b))
+        }
     };
-    Gap { feature_a, feature_b, carrier }
+    let mut circles = [None; 2];
+    for (k, feature, other_side) in [(0, &mut feature_a, CornerOf::A), (1, &mut feature_b, CornerOf::B)] {
+        if let Some([through, axis]) = D::round_axis(shape(k)).filter(|_| corner == other_side) {
+            let (through, axis) = (rotation(k).rotate(through), rotation(k).rotate(axis));
+            *feature = through + axis * axis.dot(*feature - through);
+            circles[k] = Some(axis);
+        }
+    }
+    Gap { feature_a, feature_b, carrier, circles }
 }

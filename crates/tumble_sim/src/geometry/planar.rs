@@ -56,6 +56,14 @@ impl Geometry for Planar {
         }
     }
 
+    fn round_axis(_: &PlanarShape) -> Option<[DVec2; 2]> {
+        None
+    }
+
+    fn edge_direction(_: &PlanarShape, _: usize) -> Option<DVec2> {
+        None
+    }
+
     fn collide(a: Posed<'_, Self>, b: Posed<'_, Self>, query: &ContactQuery<'_, Self>) -> PlanarManifold {
         let query = PlanarQuery {
             margin: query.margin,

@@ -7,7 +7,7 @@ use tumble_collision::{
     ContactPoint, SpatialManifold, SpatialOrientedBox, SpatialQuery, Volume, collide_spatial as collide,
 };
 use tumble_math::{Dim, Matrix, Pose, Rotation, Spatial, SpatialRotation};
-use tumble_shape::{MassProperties, SpatialShape};
+use tumble_shape::{ConvexHull, MassProperties, SpatialShape};
 use tumble_solver::SolverBody;
 use tumble_solver::joint::{JointEnds, JointError, JointRow, distance, revolute, spatial};
 
@@ -57,6 +57,29 @@ impl Geometry for Spatial {
 
     fn rounding(shape: &SpatialShape) -> f64 {
         shape.radius()
+    }
+
+    fn round_axis(shape: &SpatialShape) -> Option<[DVec3; 2]> {
+        match shape {
+            SpatialShape::Cylinder(cylinder) => Some([cylinder.ends()[0], cylinder.direction()]),
+            SpatialShape::Cone(cone) => Some([cone.base(), cone.direction()]),
+            _ => None,
+        }
+    }
+
+    fn edge_direction(shape: &SpatialShape, number: usize) -> Option<DVec3> {
+        let of_hull = |hull: &ConvexHull| {
+            let [from, to] = hull.edges().get(number)?.vertices.map(|vertex| hull.vertices()[vertex as usize]);
+            Some(to - from)
+        };
+        let along = match shape {
+            SpatialShape::Cuboid(cuboid) => of_hull(cuboid.hull())?,
+            SpatialShape::ConvexHull(hull) => of_hull(hull)?,
+            SpatialShape::SpatialRod(rod) => rod.ends()[1] - rod.ends()[0],
+            SpatialShape::Capsule(capsule) => capsule.ends()[1] - capsule.ends()[0],
+            _ => return None,
+        };
+        along.try_normalize()
     }
 
     fn collide(a: Posed<'_, Self>, b: Posed<'_, Self>, query: &ContactQuery<'_, Self>) -> SpatialManifold {

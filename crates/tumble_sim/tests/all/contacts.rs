@@ -5,7 +5,7 @@ use crate::support::{block, body, bouncing, every, floor, rod, rough, simulation
 use bevy_ecs::name::Name;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, dvec2};
-use tumble_math::{Linear, Planar};
+use tumble_math::{Linear, Planar, PlanarRotation};
 use tumble_shape::{ConvexPolygon, Rod};
 use tumble_sim::{
     Amount, BodyId, BodyKind, Groups, IgnoredPairs, Integrator, Keyframe, Keyframes, LinearVelocity, Part, Position,
@@ -194,7 +194,7 @@ fn approaching_contact_set_by_the_user_bounces_before_the_next_step() {
 fn kinematic_body_follows_its_keyframes_and_carries_what_stands_on_it() {
     let mut simulation = simulation(every(0.01), rough(0.8, 0.8));
     let lift = block(2.0, 0.2, 1.0).at(0.0, -0.1).kind(BodyKind::Kinematic).spawn(&mut simulation, "lift");
-    let frame = |time, x, y| Keyframe { time, position: dvec2(x, y), angle: 0.0 };
+    let frame = |time, x, y| Keyframe { time, position: dvec2(x, y), rotation: PlanarRotation::IDENTITY };
     let path = [frame(0.0, 0.0, -0.1), frame(1.0, 0.0, -0.1), frame(3.0, 1.0, 0.9), frame(9.0, 1.0, 0.9)];
     simulation.world_mut().entity_mut(lift).insert(Keyframes(path.to_vec()));
     block(0.5, 0.5, 1.0).at(0.0, 0.25).spawn(&mut simulation, "load");
@@ -214,7 +214,10 @@ fn keyframes_are_followed_exactly_by_ballistic_bodies_too() {
     let settings = Settings { integrator: Integrator::Ballistic, ..every(0.01) };
     let mut simulation: Simulation<Planar> = Simulation::new(settings);
     let arm = block(1.0, 0.2, 1.0).kind(BodyKind::Kinematic).spawn(&mut simulation, "arm");
-    let frame = |time, x, angle| Keyframe { time, position: dvec2(x, 0.0), angle };
+    let frame = |time, x, angle| {
+        let rotation = PlanarRotation::from_angle(angle);
+        Keyframe { time, position: dvec2(x, 0.0), rotation }
+    };
     let path = [frame(0.0, 0.0, 0.0), frame(0.5, 1.0, 0.5), frame(1.0, 1.0, -0.5)];
     simulation.world_mut().entity_mut(arm).insert(Keyframes(path.to_vec()));
     for (time, x, angle) in [(0.25, 0.5, 0.25), (0.25, 1.0, 0.5), (0.3, 1.0, -0.1), (0.2, 1.0, -0.5)] {

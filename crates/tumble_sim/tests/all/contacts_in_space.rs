@@ -231,8 +231,7 @@ fn a_cylinder_stands_on_a_table_and_another_one_on_it() {
 #[test]
 fn d7_a_cylinder_rolls_down_a_plank() {
     let surface = Surface { static_friction: 0.4, kinetic_friction: 0.4, restitution: 0.0 };
-    // Resting forces take the places where it touches for corners of it, and are right only while it is slow.
-    for contact in [ContactModel::Impulse, ContactModel::VelocityLcp] {
+    for contact in RIGID {
         let mut simulation = Simulation::with_settings(settings(contact, 1e-3));
         simulation.materials_mut().set("default", surface);
         let turned = SpatialRotation::IDENTITY.turned(dvec3(0.0, 30f64.to_radians(), 0.0));

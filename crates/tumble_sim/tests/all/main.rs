@@ -2,10 +2,13 @@
 
 mod contacts;
 mod contacts_in_space;
+mod driven_in_space;
 mod laws;
 mod ledger;
+mod rolling_in_space;
 mod soft_step;
 mod space;
+mod space_support;
 mod support;
 mod time_of_impact;
 mod turning_contacts;

@@ -68,12 +68,22 @@ impl<D: Dim> Problem<D> {
         let alone = self.velocity(contact) - own.apply(self.impulses[contact]);
         let (friction, held) = (self.friction[contact], self.held[contact]);
         if held > 0.0 {
-            let mut impulse = D::Vector::ZERO;
+            // One tangent is solved outright. Two are by steps that suit the stiffer one, from where they are.
+            let (mut impulse, most_steps) = match D::Vector::AXES {
+                2 => (D::Vector::ZERO, 1),
+                _ => (tangential(self.impulses[contact]), 100),
+            };
             impulse[0] = held;
-            let slip = tangential(alone + own.apply(impulse));
             let stiffness = tangent_yield::<D>(own);
-            if stiffness > 0.0 {
-                impulse += within(slip * (-1.0 / stiffness), friction * held);
+            for _ in 0..if stiffness > 0.0 { most_steps } else { 0 } {
+                let before = tangential(impulse);
+                let slip = tangential(alone + own.apply(impulse));
+                impulse = within(before - slip * (1.0 / stiffness), friction * held);
+                let change = (impulse - before).length();
+                impulse[0] = held;
+                if change <= 1e-16 * friction * held {
+                    break;
+                }
             }
             if (alone + own.apply(impulse))[0] >= 0.0 {
                 return impulse;

@@ -223,7 +223,7 @@ fn disc_rolling_on_a_floor_is_carried_by_its_weight_whatever_its_speed() {
     let (radius, speed) = (0.5, 7.0);
     let bodies = [FLOOR, moving(body(2.0, 0.25), dvec2(speed, 0.0), -speed / radius)];
     let mut rows = [on_floor(1, dvec2(0.0, -radius), surface(0.5, 0.0))];
-    let gap = Gap { feature_a: DVec2::ZERO, feature_b: DVec2::ZERO, carrier: NormalCarrier::A };
+    let gap = Gap { feature_a: DVec2::ZERO, feature_b: DVec2::ZERO, carrier: NormalCarrier::A, circles: [None; 2] };
     let mut accelerations = [Acceleration::default(), Acceleration { linear: dvec2(0.0, -GRAVITY), angular: 0.0 }];
     let mut forces = Vec::new();
     let settings = RestingSettings::default();
@@ -241,7 +241,8 @@ fn bead_sliding_over_a_fixed_disc_leaves_it_where_gravity_no_longer_bends_its_pa
     for speed in [0.0, 2.0, 5.0] {
         let bodies = [FLOOR, moving(body(1.5, 1.0), speed * dvec2(cosine, -sine), 0.0)];
         let mut rows = [contact([0, 1], normal, [radius * normal, DVec2::ZERO], Surface::default())];
-        let gap = Gap { feature_a: DVec2::ZERO, feature_b: DVec2::ZERO, carrier: NormalCarrier::Line };
+        let gap =
+            Gap { feature_a: DVec2::ZERO, feature_b: DVec2::ZERO, carrier: NormalCarrier::Line, circles: [None; 2] };
         let mut accelerations = [Acceleration::default(), Acceleration { linear: dvec2(0.0, -GRAVITY), angular: 0.0 }];
         let mut forces = Vec::new();
         let settings = RestingSettings::default();
@@ -361,7 +362,8 @@ fn e11_cylinder_stays_on_two_others_from_its_least_frictions_on() {
             touch([1, 3], right_up),
             touch([2, 3], left_up),
         ];
-        let round = Gap { feature_a: DVec2::ZERO, feature_b: DVec2::ZERO, carrier: NormalCarrier::Line };
+        let round =
+            Gap { feature_a: DVec2::ZERO, feature_b: DVec2::ZERO, carrier: NormalCarrier::Line, circles: [None; 2] };
         for unrest in unrest(&bodies, &rows, &[round; 5]) {
             // A ten-thousandth too little friction lets them go with about g / 10 000.
             assert_eq!(unrest < 1e-9, holds, "{between} {floor}: {unrest:e}");

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use tumble_math::{Dim, Inertia, Rotation, Spatial, SpatialRotation, SymmetricTensor};
 use tumble_solver::joint::{JointBlock, JointEnds, JointRow, revolute, spatial};
 use tumble_solver::resting_lcp::{Acceleration, Gap, NormalCarrier, RestingLcp, RestingSettings, RestingStatus};
-use tumble_solver::velocity_lcp::{Rebound, Restitution, VelocityLcp, VelocitySettings};
+use tumble_solver::velocity_lcp::{Rebound, Restitution, VelocityLcp, VelocitySettings, VelocitySolver};
 use tumble_solver::{ContactRow, Ending, Slip, SolverBody, Surface};
 
 type Body = SolverBody<Spatial>;
@@ -47,16 +47,35 @@ const TABLES: [([f64; 2], [f64; 4]); 2] = [([0.0, 0.0], [24.525; 4]), ([0.2, 0.1
 #[test]
 fn e1_e2_impulses_under_a_table_are_of_least_norm() {
     let dt = 1e-3;
-    for ([x, y], expected) in TABLES {
+    let exact = [VelocitySolver::Auto, VelocitySolver::Pivoting, VelocitySolver::Newton];
+    for (solver, ([x, y], expected)) in exact.into_iter().flat_map(|solver| TABLES.map(|table| (solver, table))) {
         let (mut bodies, mut rows) = table(x, y, 0.0);
         bodies[1].velocity = dvec3(0.0, 0.0, -9.81 * dt);
-        let report = VelocityLcp::default().filter(&mut bodies, &mut rows, None, &VelocitySettings::default());
+        let settings = VelocitySettings { solver, ..VelocitySettings::default() };
+        let report = VelocityLcp::default().filter(&mut bodies, &mut rows, None, &settings);
         assert_eq!(report.ending, Ending::Converged);
         for (row, force) in rows.iter().zip(expected) {
             // Impulses of 0.04 N·s, to rounding.
-            assert!((row.impulse.x - force * dt).abs() < 1e-14, "{} {}", row.impulse, force * dt);
+            assert!((row.impulse.x - force * dt).abs() < 1e-14, "{solver:?}: {} {}", row.impulse, force * dt);
         }
         assert!(bodies[1].velocity.length() < 1e-15 && bodies[1].angular_velocity.length() < 1e-15);
+    }
+}
+
+#[test]
+fn e1_e2_sweeps_hold_a_table_by_some_shares() {
+    let dt = 1e-3;
+    for ([x, y], _) in TABLES {
+        let (mut bodies, mut rows) = table(x, y, 0.0);
+        bodies[1].velocity = dvec3(0.0, 0.0, -9.81 * dt);
+        let settings = VelocitySettings { solver: VelocitySolver::BlockGaussSeidel, ..VelocitySettings::default() };
+        let report = VelocityLcp::default().filter(&mut bodies, &mut rows, None, &settings);
+        assert_eq!(report.ending, Ending::Converged);
+        // The tolerance of speeds, 1e-12 m/s, times the mass.
+        let sum: f64 = rows.iter().map(|row| row.impulse.x).sum();
+        assert!((sum - 98.1 * dt).abs() < 1e-10 && rows.iter().all(|row| row.impulse.x >= 0.0), "{sum}");
+        let moment: DVec3 = rows.iter().map(|row| row.arm_b.cross(DVec3::Z * row.impulse.x)).sum();
+        assert!(moment.length() < 1e-10, "{moment}");
     }
 }
 
@@ -251,4 +270,31 @@ fn a_second_hinge_in_line_is_redundant_and_one_askew_is_named() {
     assert!(report.unreachable_row.is_some_and(|row| row >= 5), "{report:?}");
     assert!(report.unreachable > 0.05, "{report:?}");
     assert!(displacements.iter().all(|d| d.velocity.is_finite() && d.angular_velocity.is_finite()));
+}
+
+#[test]
+fn d9_friction_at_rest_holds_alike_in_every_direction() {
+    // Weight 343.35 N, of which 0.4 hold 137.34 N.
+    for degrees in [0.0_f64, 30.0, 45.0, 60.0, 100.0] {
+        let (sine, cosine) = tumble_math::trig::sin_cos(degrees.to_radians());
+        let heading = dvec3(cosine, sine, 0.0);
+        for (pull, rests) in [(137.33, true), (150.0, false)] {
+            let feet = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)];
+            let mut rows = feet.map(|(x, y)| on_floor(dvec3(x, y, -0.5), 0.4, 0.0));
+            let bodies = [Body::default(), body(35.0, dvec3(500.0, 500.0, 900.0))];
+            let gaps: Vec<Gap<Spatial>> = rows.iter().map(|row| Gap::corner(row, NormalCarrier::A)).collect();
+            let linear = heading * (pull / 35.0) - DVec3::Z * 9.81;
+            let mut accelerations = [Acceleration::default(), Acceleration { linear, angular: DVec3::ZERO }];
+            let settings = RestingSettings::default();
+            let forces = &mut Vec::new();
+            let report =
+                RestingLcp::default().solve(&bodies, &mut accelerations, &mut rows, &gaps, forces, None, &settings);
+            // Four feet and friction leave more than one pattern of forces.
+            assert_ne!(report.status, RestingStatus::NoSolution);
+            let left = if rests { 0.0 } else { (pull - 137.34) / 35.0 };
+            // The tolerance of accelerations, of 10 m/s².
+            let off = accelerations[1].linear - heading * left;
+            assert!(off.length() < 1e-9, "{degrees}°, {pull} N: off by {off}");
+        }
+    }
 }

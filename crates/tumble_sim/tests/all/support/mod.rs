@@ -292,6 +292,17 @@ pub fn farthest(simulation: &mut Simulation, seconds: f64, enough: f64) -> f64 {
     farthest
 }
 
+/// The deepest overlap of all contact points; negative when none touches [m].
+pub fn deepest_overlap(simulation: &mut Simulation) -> f64 {
+    let mut deepest = f64::NEG_INFINITY;
+    for_each_contact(simulation, |_, manifold, _| {
+        for point in Planar::points(&manifold.0) {
+            deepest = deepest.max(-point.separation);
+        }
+    });
+    deepest
+}
+
 fn for_each_contact(
     simulation: &mut Simulation,
     mut visit: impl FnMut(&ContactPair, &ContactManifold<Planar>, &ContactMemory<Planar>),
