@@ -171,7 +171,7 @@ impl OutputFolder {
         let listed = contents.lines().filter(|name| !name.is_empty()).filter(is_inside).map(|name| partial.join(name));
         let listed: Vec<PathBuf> = listed.collect();
         for file in listed.iter().chain([&list]) {
-            match fs::remove_file(&file) {
+            match fs::remove_file(file) {
                 Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
                     return Err(FileError::new(FileAction::Remove, file, reason));
                 }

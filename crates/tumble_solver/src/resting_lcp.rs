@@ -26,8 +26,7 @@
 //!
 //! **Indeterminate.** Where statics leaves the shares open but not the accelerations, the forces of least norm are taken.
 //!
-//! In space friction at rest is bounded along two tangents. Where it leaves the disc of radius μ_s f_n through a corner of these bounds, they are turned into its
-//! direction, until it does not.
+//! In space friction at rest is bounded along each of the two tangents of the frame.
 //!
 //! Good at: contact forces as such, exact rest, exact sliding. Bad at: impacts (it has none), Painlevé's configurations, large piles.
 //! Choose it to see forces, and for few contacts.
@@ -243,7 +242,7 @@ impl<D: Dim> RestingLcp<D> {
             Some(direction) if slip.length() > settings.sliding_above => {
                 Friction::Sliding(direction * -row.surface.kinetic_friction)
             }
-            _ if row.surface.static_friction > 0.0 => Friction::Resting(D::Vector::unit(1)),
+            _ if row.surface.static_friction > 0.0 => Friction::Resting,
             _ => Friction::Sliding(D::Vector::ZERO),
         };
         Point { free: self.free[index as usize], friction, surface: row.surface }

@@ -15,8 +15,8 @@ const ENUMERATE_UP_TO: usize = 4;
 /// What friction does at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Friction<V> {
-    /// Whatever it takes to stay, up to μ_s along this unit tangent; in space also along the one square to it.
-    Resting(V),
+    /// Whatever it takes to stay, up to μ_s.
+    Resting,
     /// This times the normal force: −μ_k v_t/|v_t|.
     Sliding(V),
 }
@@ -40,12 +40,6 @@ pub(super) struct Solved<V> {
     pub residual: f64,
 }
 
-/// How often tangents are turned into the direction of friction, to make a disc of its bounds.
-const TURNS_OF_TANGENTS: u32 = 20;
-
-/// Part of μ_s f_n by which friction may leave its disc [1].
-const ROUND_TO: f64 = 1e-12;
-
 /// A guess counts as the answer only when it is as exact as an answer, which is far better than the tolerance asks [1].
 const KNOWN_WITHIN: f64 = 1e-3;
 
@@ -58,24 +52,12 @@ pub(super) fn solve<D: Dim>(
 ) -> Solved<D::Vector> {
     let mut stage = Stage::<D>::of(a, &points);
     let mut first = stage.solve(guess, tolerance);
-    for _ in 0..TURNS_OF_TANGENTS {
-        if first.status == RestingStatus::NoSolution || !turn_tangents(&mut points, &first.forces) {
-            break;
-        }
-        stage = Stage::of(a, &points);
-        let next = stage.solve(&first.forces, tolerance);
-        first = Outcome { iterations: first.iterations + next.iterations, ..next };
-    }
     if first.status != RestingStatus::NoSolution {
         let mut breaks = false;
         for (k, point) in points.iter_mut().enumerate() {
             let (force, pull) = (first.forces[k], tangential(first.accelerations[k]));
             let used_up = tangential(force).length() >= point.surface.static_friction * force[0] * (1.0 - 1e-12);
-            if matches!(point.friction, Friction::Resting(_))
-                && force[0] > 0.0
-                && used_up
-                && pull.length() > 10.0 * tolerance
-            {
+            if point.friction == Friction::Resting && force[0] > 0.0 && used_up && pull.length() > 10.0 * tolerance {
                 point.friction = Friction::Sliding(pull * (-point.surface.kinetic_friction / pull.length()));
                 breaks = true;
             }
@@ -88,33 +70,10 @@ pub(super) fn solve<D: Dim>(
     }
     let slip = |k: usize| match points[k].friction {
         Friction::Sliding(_) => Slip::Sliding,
-        Friction::Resting(_) => Slip::Sticking,
+        Friction::Resting => Slip::Sticking,
     };
     let forces = first.forces.iter().enumerate().map(|(k, force)| (*force, slip(k))).collect();
     Solved { status: first.status, forces, iterations: first.iterations, residual: first.residual }
-}
-
-/// Turns the tangents of resting points along friction that has left its disc through a corner of its bounds; whether there was any.
-fn turn_tangents<V: Vector>(points: &mut [Point<V>], forces: &[V]) -> bool {
-    let mut any = false;
-    for (point, force) in points.iter_mut().zip(forces) {
-        let friction = tangential(*force);
-        let bound = point.surface.static_friction * force[0] * (1.0 + ROUND_TO);
-        if let Friction::Resting(tangent) = &mut point.friction
-            && V::AXES > 2
-            && friction.length() > bound
-            && let Some(along) = friction.try_normalize()
-        {
-            (*tangent, any) = (along, true);
-        }
-    }
-    any
-}
-
-/// The tangents of a resting point, the first of which is given, in its contact frame.
-fn tangents<V: Vector>(first: V) -> impl Iterator<Item = V> {
-    let second = (V::AXES > 2).then(|| V::unit(2) * first[1] - V::unit(1) * first[V::AXES - 1]);
-    std::iter::once(first).chain(second)
 }
 
 /// An island with what friction does at each point decided.
@@ -129,10 +88,8 @@ struct Stage<'a, D: Dim> {
 #[derive(Clone, Copy)]
 struct Unknown<V> {
     point: usize,
-    /// Direction of the point's acceleration in its row, in its contact frame.
-    row: V,
-    /// Whether that is the normal.
-    is_normal: bool,
+    /// Component of the point's acceleration in its row.
+    component: usize,
     /// Force of the point per unit of the unknown.
     force: V,
 }
@@ -155,17 +112,10 @@ impl<'a, D: Dim> Stage<'a, D> {
             let unit = D::Vector::unit;
             match *friction {
                 Friction::Sliding(direction) => {
-                    unknowns.push(Unknown { point, row: unit(0), is_normal: true, force: unit(0) + direction });
+                    unknowns.push(Unknown { point, component: 0, force: unit(0) + direction });
                 }
-                Friction::Resting(tangent) => {
-                    unknowns.push(Unknown { point, row: unit(0), is_normal: true, force: unit(0) });
-                    let along = tangents(tangent);
-                    unknowns.extend(along.map(|tangent| Unknown {
-                        point,
-                        row: tangent,
-                        is_normal: false,
-                        force: tangent,
-                    }));
+                Friction::Resting => {
+                    unknowns.extend((0..D::Vector::AXES).map(|k| Unknown { point, component: k, force: unit(k) }));
                     let bound = Bound::Friction { normal, coefficient: surface.static_friction };
                     bounds.extend((1..D::Vector::AXES).map(|_| bound));
                 }
@@ -178,7 +128,7 @@ impl<'a, D: Dim> Stage<'a, D> {
         let size = self.points.iter().map(|point| point.free.length()).fold(0.0, f64::max);
         let bar = tolerance * size.max(1.0);
         let may_have_several = !self.is_frictionless() && !self.has_positive_minors();
-        let guess: Vec<f64> = self.unknowns.iter().map(|unknown| guess[unknown.point].dot(unknown.row)).collect();
+        let guess: Vec<f64> = self.unknowns.iter().map(|unknown| guess[unknown.point][unknown.component]).collect();
         let known = self.outcome(RestingStatus::Solved, self.forces(&guess), 0);
         if !may_have_several && known.residual <= KNOWN_WITHIN * bar {
             return known;
@@ -225,21 +175,15 @@ impl<'a, D: Dim> Stage<'a, D> {
     fn problem(&self) -> Option<Lcp> {
         let n = self.unknowns.len();
         let m = Dense::from_fn(n, n, |r, c| self.entry(&self.unknowns[r], &self.unknowns[c]));
-        let q = self.unknowns.iter().map(|row| self.points[row.point].free.dot(row.row)).collect();
+        let q = self.unknowns.iter().map(|row| self.points[row.point].free[row.component]).collect();
         Lcp::new(m, q).and_then(|lcp| lcp.with_bounds(self.bounds.clone())).ok()
     }
 
     /// Acceleration in one unknown's row per unit of another.
     fn entry(&self, row: &Unknown<D::Vector>, column: &Unknown<D::Vector>) -> f64 {
-        self.between(row, column.point, column.force)
-    }
-
-    /// Acceleration in the row of an unknown by a force at a point.
-    fn between(&self, row: &Unknown<D::Vector>, at: usize, force: D::Vector) -> f64 {
         let axes = D::Vector::AXES;
-        let along =
-            |r: usize| -> f64 { (0..axes).map(|k| self.a[(axes * row.point + r, axes * at + k)] * force[k]).sum() };
-        (0..axes).filter(|r| row.row[*r] != 0.0).map(|r| row.row[r] * along(r)).sum()
+        let r = axes * row.point + row.component;
+        (0..axes).map(|k| self.a[(r, axes * column.point + k)] * column.force[k]).sum()
     }
 
     fn is_frictionless(&self) -> bool {
@@ -251,7 +195,7 @@ impl<'a, D: Dim> Stage<'a, D> {
     /// only those of a single point.
     fn has_positive_minors(&self) -> bool {
         let n = self.points.len();
-        let normal = |point: usize, force| Unknown { point, row: D::Vector::unit(0), is_normal: true, force };
+        let normal = |point: usize, force| Unknown { point, component: 0, force };
         let choices: Vec<Vec<D::Vector>> = self
             .points
             .iter()
@@ -259,9 +203,9 @@ impl<'a, D: Dim> Stage<'a, D> {
                 let up = D::Vector::unit(0);
                 match point.friction {
                     Friction::Sliding(direction) => vec![up + direction],
-                    Friction::Resting(tangent) => tangents(tangent)
-                        .flat_map(|tangent| {
-                            [1.0, -1.0].map(|sign| up + tangent * (sign * point.surface.static_friction))
+                    Friction::Resting => (1..D::Vector::AXES)
+                        .flat_map(|axis| {
+                            [1.0, -1.0].map(|sign| up + D::Vector::unit(axis) * (sign * point.surface.static_friction))
                         })
                         .collect(),
                 }
@@ -317,14 +261,13 @@ impl<'a, D: Dim> Stage<'a, D> {
         }
         let mut residual: f64 = 0.0;
         for unknown in &self.unknowns {
-            let (force, acceleration) = (forces[unknown.point], accelerations[unknown.point].dot(unknown.row));
-            let own = self.between(unknown, unknown.point, unknown.row);
-            let error = if unknown.is_normal {
+            let (force, acceleration) = (forces[unknown.point], accelerations[unknown.point][unknown.component]);
+            let own = self.a[(axes * unknown.point + unknown.component, axes * unknown.point + unknown.component)];
+            let error = if unknown.component == 0 {
                 acceleration.min(own * force[0])
             } else {
                 let bound = self.points[unknown.point].surface.static_friction * force[0].max(0.0);
-                let friction = force.dot(unknown.row);
-                acceleration.min(own * (friction + bound)).max(own * (friction - bound))
+                acceleration.min(own * (force[unknown.component] + bound)).max(own * (force[unknown.component] - bound))
             };
             residual = residual.max(error.abs());
         }
@@ -351,9 +294,9 @@ impl<'a, D: Dim> Stage<'a, D> {
         match point.friction {
             _ if acceleration[0] > bar => Freedom::None,
             Friction::Sliding(direction) => along(up + direction),
-            Friction::Resting(_) if pull.length() <= bar => Freedom::All,
-            Friction::Resting(_) if outcome.forces[k][0] > 0.0 => along(outcome.forces[k]),
-            Friction::Resting(_) => along(up + pull * (-point.surface.static_friction / pull.length())),
+            Friction::Resting if pull.length() <= bar => Freedom::All,
+            Friction::Resting if outcome.forces[k][0] > 0.0 => along(outcome.forces[k]),
+            Friction::Resting => along(up + pull * (-point.surface.static_friction / pull.length())),
         }
     }
 }

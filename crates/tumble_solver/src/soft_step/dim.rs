@@ -115,8 +115,8 @@ impl<const K: usize> Components for Count<K> {
 
     #[inline(always)]
     fn times<N: Number>(mut a: [N; K], s: N) -> [N; K] {
-        for k in 0..K {
-            a[k] = a[k] * s;
+        for number in &mut a {
+            *number = *number * s;
         }
         a
     }

@@ -271,30 +271,3 @@ fn a_second_hinge_in_line_is_redundant_and_one_askew_is_named() {
     assert!(report.unreachable > 0.05, "{report:?}");
     assert!(displacements.iter().all(|d| d.velocity.is_finite() && d.angular_velocity.is_finite()));
 }
-
-#[test]
-fn d9_friction_at_rest_holds_alike_in_every_direction() {
-    // Weight 343.35 N, of which 0.4 hold 137.34 N.
-    for degrees in [0.0_f64, 30.0, 45.0, 60.0, 100.0] {
-        let (sine, cosine) = tumble_math::trig::sin_cos(degrees.to_radians());
-        let heading = dvec3(cosine, sine, 0.0);
-        for (pull, rests) in [(137.33, true), (150.0, false)] {
-            let feet = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)];
-            let mut rows = feet.map(|(x, y)| on_floor(dvec3(x, y, -0.5), 0.4, 0.0));
-            let bodies = [Body::default(), body(35.0, dvec3(500.0, 500.0, 900.0))];
-            let gaps: Vec<Gap<Spatial>> = rows.iter().map(|row| Gap::corner(row, NormalCarrier::A)).collect();
-            let linear = heading * (pull / 35.0) - DVec3::Z * 9.81;
-            let mut accelerations = [Acceleration::default(), Acceleration { linear, angular: DVec3::ZERO }];
-            let settings = RestingSettings::default();
-            let forces = &mut Vec::new();
-            let report =
-                RestingLcp::default().solve(&bodies, &mut accelerations, &mut rows, &gaps, forces, None, &settings);
-            // Four feet and friction leave more than one pattern of forces.
-            assert_ne!(report.status, RestingStatus::NoSolution);
-            let left = if rests { 0.0 } else { (pull - 137.34) / 35.0 };
-            // The tolerance of accelerations, of 10 m/s².
-            let off = accelerations[1].linear - heading * left;
-            assert!(off.length() < 1e-9, "{degrees}°, {pull} N: off by {off}");
-        }
-    }
-}
