@@ -225,7 +225,7 @@ fn scenes_built_in_code_read_their_files_themselves() -> Fallible {
         file: "box.obj".to_owned(),
         ..Default::default()
     })];
-    let refused = Simulation::from_scene(&scene).err().expect("nobody read the file").to_string();
+    let refused = Simulation::from_scene(&scene).expect_err("nobody read the file").to_string();
     assert!(refused.contains("it is read when a scene is loaded"), "{refused}");
     Ok(())
 }

@@ -42,8 +42,9 @@ fn the_books_close_under_every_model_and_integrator() {
             for step in 0..600 {
                 simulation.step().unwrap();
                 let ledger = *simulation.world().resource::<Ledger>();
-                // Round-off of energies of some hundred joules.
-                assert!(ledger.error.abs() < 1e-10, "{contact:?} {integrator:?}, step {step}: {ledger:?}");
+                // Round-off of energies of some hundred joules; soft steps sum impulses in single precision.
+                let round_off = if contact == ContactModel::SoftStep { 1e-4 } else { 1e-10 };
+                assert!(ledger.error.abs() < round_off, "{contact:?} {integrator:?}, step {step}: {ledger:?}");
                 sum.work_friction += ledger.work_friction;
                 sum.work_user += ledger.work_user;
                 sum.work_impacts += ledger.work_impacts;
