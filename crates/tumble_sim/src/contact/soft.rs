@@ -211,13 +211,13 @@ pub fn take_soft_steps<D: Geometry>(
         let body = &mut problem.bodies[index.0 as usize];
         (body.velocity, body.angular_velocity) = (velocity.0, spin.0);
     }
-    joints.collect_impulses();
 
     problem.resting = problem.rows.len();
     if let (Some(books), Some(before)) = (&mut books, before) {
         let impulses = problem.rows.iter().map(|row| row.impulse);
         books.count_impulses(&problem.rows, impulses, joints.rows(), &before, &problem.bodies);
     }
+    joints.collect_impulses();
 }
 
 /// Adds to the displacements what lets joints end the step closed.

@@ -169,8 +169,9 @@ fn books_close_with_joints_of_space() {
             for step in 0..1000 {
                 pendulum.simulation.step().unwrap();
                 let ledger = *pendulum.simulation.world().resource::<Ledger>();
-                // Round-off of energies of some ten joules.
-                assert!(ledger.error.abs() < 1e-12, "{contact:?} {integrator:?}, step {step}: {ledger:?}");
+                // Round-off of energies of some ten joules; soft steps sum impulses in single precision.
+                let round_off = if contact == ContactModel::SoftStep { 1e-5 } else { 1e-12 };
+                assert!(ledger.error.abs() < round_off, "{contact:?} {integrator:?}, step {step}: {ledger:?}");
             }
         }
     }
