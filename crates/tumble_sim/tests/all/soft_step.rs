@@ -98,7 +98,7 @@ fn static_and_kinetic_friction_decide_on_a_slope() {
             assert!(speed < 1e-4, "{speed}");
         } else {
             // Until it slips faster than gravity makes it in a substep, the block is held back by static friction.
-            let acceleration = |friction: f64| G * (angle.sin() - friction * angle.cos());
+            let acceleration = |friction: f64| G * direction(angle).dot(dvec2(-friction, 1.0));
             let slow = G * 0.005 / 4.0;
             let expected = slow + acceleration(0.3) * (1.0 - slow / acceleration(0.5));
             // Friction is known a substep late, and the block tilts into its softer lower edge: one per cent.
