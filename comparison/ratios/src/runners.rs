@@ -112,8 +112,9 @@ impl Runner {
             let message = format!("{}, {}", output.status, String::from_utf8_lossy(&output.stderr).trim());
             return Err(RunnerError::Failed { program, scene, message });
         }
-        // The line is the last one: engines may have something to say before it.
-        let line = text.lines().last().unwrap_or_default();
-        line.parse().map_err(|error| RunnerError::Line { program, scene, error })
+        // Engines may have something to say before and after it.
+        let found = text.lines().rev().find_map(|line| line.parse().ok());
+        let last = text.lines().last().unwrap_or_default();
+        found.map_or_else(|| last.parse().map_err(|error| RunnerError::Line { program, scene, error }), Ok)
     }
 }
