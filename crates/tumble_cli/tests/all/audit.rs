@@ -90,8 +90,10 @@ fn a_block_sticks_until_it_slides() {
             assert!(number(row, "tangent_violation") <= slip, "{model}: {row:?}");
         }
         // All of the friction is between 5.886 s and 10 s: μ_k m g = 7.848 N over 28.21 m, and half a step of slip.
-        assert!((sum(&rows, "work_friction") + 221.4).abs() < 3.0, "{model}: {}", sum(&rows, "work_friction"));
+        // Soft steps let go 0.07 s later, since slow slip counts as sticking: 0.13 m/s and 0.5 m less at the end.
+        let late = if model == "soft-step" { 4.2 } else { 0.0 };
+        assert!((sum(&rows, "work_friction") + 221.4).abs() < 3.0 + late, "{model}: {}", sum(&rows, "work_friction"));
         // The push does the rest: ½ m v² = 273.4 J and what friction took.
-        assert!((sum(&rows, "work_user") - 494.9).abs() < 7.0, "{model}: {}", sum(&rows, "work_user"));
+        assert!((sum(&rows, "work_user") - 494.9).abs() < 7.0 + 2.0 * late, "{model}: {}", sum(&rows, "work_user"));
     }
 }
