@@ -12,7 +12,7 @@ use clap::Parser;
 use tumble_bench::scenes::{self, Scene};
 
 use results::Results;
-use runners::{Runner, RunnerError};
+use runners::RunnerError;
 
 /// Scenes that are run unless others are asked for, with fewer steps than they have by themselves where these show the same.
 const USUAL: [(&str, Option<u32>); 13] = [
