@@ -6,7 +6,7 @@ use tumble_math::{Planar, Pose, Spatial, SpatialRotation};
 use tumble_shape::{Capsule, ConvexHull, ConvexPolygon, Cuboid, Disc, Rod, ShapeError, SpatialShapeError, Sphere};
 use tumble_sim::{
     Amount, AngularVelocity, BodyId, BodyKind, ContactModel, Geometry, InertiaOverride, LinearVelocity, Orientation,
-    Part, Position, Settings, Simulation, StepError,
+    Part, Position, Settings, Simulation, StepError, TeamError,
 };
 use tumble_solver::Surface;
 
@@ -21,6 +21,9 @@ pub enum TumbleError {
     /// A shape of space is degenerate.
     #[error(transparent)]
     Spatial(#[from] SpatialShapeError),
+    /// Threads could not be started.
+    #[error(transparent)]
+    Threads(#[from] TeamError),
     /// A step failed.
     #[error(transparent)]
     Step(#[from] StepError),
@@ -98,9 +101,15 @@ pub struct Tumble<D: Geometry> {
 
 impl<D: TumbleDim> Tumble<D> {
     /// Builds the bodies of a plan, ready for the first step, and lets a profile watch it.
-    pub fn new(plan: &Plan<D>, contact: ContactModel, profile: Option<&Profile>) -> Result<Self, TumbleError> {
+    pub fn new(
+        plan: &Plan<D>,
+        contact: ContactModel,
+        threads: u32,
+        profile: Option<&Profile>,
+    ) -> Result<Self, TumbleError> {
         let settings = Settings { dt: plan.dt, gravity: plan.gravity, contact, ..Settings::weightless() };
         let mut simulation = Simulation::with_settings(settings);
+        simulation.set_threads(threads as usize)?;
         let Plan { friction, restitution, .. } = *plan;
         let surface = Surface { static_friction: friction, kinetic_friction: friction, restitution };
         simulation.materials_mut().set("default", surface);

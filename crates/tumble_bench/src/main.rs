@@ -91,7 +91,7 @@ fn after_help() -> String {
     for scene in SCENES {
         help += &format!("  {:<16} {}\n", scene.name, scene.about);
     }
-    help + "\nThe engine itself runs on one thread at present, whatever --threads says."
+    help
 }
 
 fn main() -> ExitCode {
@@ -125,8 +125,8 @@ fn run_scene(plan: &AnyPlan, arguments: &Arguments) -> Result<Line, TumbleError>
     let RunOptions { threads, steps, .. } = arguments.options;
     let how = Run { engine: "tumble", version: &version, threads, steps, held_bytes: || held_bytes(ALLOCATOR) };
     let line = match plan {
-        AnyPlan::Planar(plan) => run(plan, &how, |plan| Tumble::new(plan, contact, profile.as_ref())),
-        AnyPlan::Spatial(plan) => run(plan, &how, |plan| Tumble::new(plan, contact, profile.as_ref())),
+        AnyPlan::Planar(plan) => run(plan, &how, |plan| Tumble::new(plan, contact, threads, profile.as_ref())),
+        AnyPlan::Spatial(plan) => run(plan, &how, |plan| Tumble::new(plan, contact, threads, profile.as_ref())),
     }?;
     if let Some(profile) = profile {
         eprint!("{}\n{profile}", line.scene);

@@ -203,14 +203,13 @@ impl<V: Vector, const N: usize, M: Memory> Manifold<V, N, M> {
         self.count += 1;
     }
 
-    /// The same points at other places: `place` tells the point and its separation by number.
+    /// Moves the points to other places, along another normal: `place` tells the point and its separation by number.
     #[inline]
-    pub fn placed(&self, normal: V, mut place: impl FnMut(usize) -> (V, f64)) -> Self {
-        let mut placed = Self { normal, ..*self };
-        for (number, point) in placed.points[..self.count as usize].iter_mut().enumerate() {
+    pub fn carry(&mut self, normal: V, mut place: impl FnMut(usize) -> (V, f64)) {
+        self.normal = normal;
+        for (number, point) in self.points[..self.count as usize].iter_mut().enumerate() {
             (point.point, point.separation) = place(number);
         }
-        placed
     }
 
     /// The same manifold with something to remember.

@@ -31,6 +31,9 @@ pub trait Dim: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     /// The contact frame of a unit normal: columns normal, then tangents. In the plane the tangent is (n_y, −n_x).
     fn contact_frame(normal: Self::Vector) -> Self::Matrix;
 
+    /// The matrix of a rotation, body to world.
+    fn matrix(rotation: &Self::Rotation) -> Self::Matrix;
+
     /// Rotation and rate of turn after one step without torque; see the implicit midpoint rule in the source.
     fn turn_freely(
         rotation: Self::Rotation,
@@ -84,6 +87,11 @@ impl Dim for Planar {
     fn contact_frame(normal: DVec2) -> DMat2 {
         DMat2::from_cols(normal, DVec2::new(normal.y, -normal.x))
     }
+
+    #[inline]
+    fn matrix(rotation: &PlanarRotation) -> DMat2 {
+        rotation.to_matrix()
+    }
 }
 
 /// Mechanics in space: right-handed axes.
@@ -112,11 +120,17 @@ impl Dim for Spatial {
         angular_velocity.cross(angular_momentum)
     }
 
+    #[inline]
     fn contact_frame(normal: DVec3) -> DMat3 {
         // Any tangent will do, as long as it is a continuous function of the normal almost everywhere and never degenerate.
         let helper = if normal.x.abs() < 0.6 { DVec3::X } else { DVec3::Y };
         let tangent = normal.cross(helper);
         let tangent = tangent * (1.0 / tangent.length());
         DMat3::from_cols(normal, tangent, normal.cross(tangent))
+    }
+
+    #[inline]
+    fn matrix(rotation: &SpatialRotation) -> DMat3 {
+        rotation.to_matrix()
     }
 }

@@ -30,6 +30,9 @@ pub trait Rotation<W: Angular>: Copy + Debug + Default + PartialEq + Send + Sync
     /// This rotation in the axes of a frame: frame⁻¹ R.
     fn seen_from(&self, frame: &Self) -> Self;
 
+    /// How far the tips of unit axes are, at most, from where they were: seen from a frame, now and `then`, squared [1].
+    fn strayed(&self, frame: &Self, then: &Self) -> f64;
+
     /// Whether no part of it is infinite or NaN.
     fn is_finite(&self) -> bool;
 }
@@ -76,6 +79,7 @@ impl PlanarRotation {
     }
 
     /// The rotation matrix R(a), body to world (R3).
+    #[inline]
     pub fn to_matrix(&self) -> DMat2 {
         DMat2::from_cols(DVec2::new(self.cos, self.sin), DVec2::new(-self.sin, self.cos))
     }
@@ -113,6 +117,13 @@ impl Rotation<f64> for PlanarRotation {
 
     fn seen_from(&self, frame: &Self) -> Self {
         Self::from_angle(self.angle - frame.angle)
+    }
+
+    #[inline]
+    fn strayed(&self, frame: &Self, then: &Self) -> f64 {
+        let cos = frame.cos * self.cos + frame.sin * self.sin - then.cos;
+        let sin = frame.cos * self.sin - frame.sin * self.cos - then.sin;
+        cos * cos + sin * sin
     }
 
     fn is_finite(&self) -> bool {
@@ -165,6 +176,7 @@ impl SpatialRotation {
     }
 
     /// The rotation matrix, body to world.
+    #[inline]
     pub fn to_matrix(&self) -> DMat3 {
         DMat3::from_quat(self.quaternion)
     }
@@ -208,6 +220,13 @@ impl Rotation<DVec3> for SpatialRotation {
     fn seen_from(&self, frame: &Self) -> Self {
         let product = frame.quaternion.conjugate() * self.quaternion;
         Self { quaternion: product * (1.0 / product.length()) }
+    }
+
+    #[inline]
+    fn strayed(&self, frame: &Self, then: &Self) -> f64 {
+        // A chord of angle a is 2 sin(½a) long, and the two quaternions are ½a apart.
+        let cos = (frame.quaternion.conjugate() * self.quaternion).dot(then.quaternion);
+        4.0 * (1.0 - cos * cos)
     }
 
     fn is_finite(&self) -> bool {

@@ -93,12 +93,8 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> + SoftDim {
     /// The normal of a manifold, from a to b.
     fn normal(manifold: &Self::Manifold) -> Self::Vector;
 
-    /// The same points at other places, along another normal: `place` tells the point and its separation by number.
-    fn placed(
-        manifold: &Self::Manifold,
-        normal: Self::Vector,
-        place: impl FnMut(usize) -> (Self::Vector, f64),
-    ) -> Self::Manifold;
+    /// Moves the points to other places, along another normal: `place` tells the point and its separation by number.
+    fn carry(manifold: &mut Self::Manifold, normal: Self::Vector, place: impl FnMut(usize) -> (Self::Vector, f64));
 
     /// Appends the rows of a joint whose bodies have these rotations.
     ///

@@ -20,6 +20,7 @@ pub mod schedule;
 pub mod settings;
 mod simulation;
 pub mod structure;
+mod threads;
 
 pub use body::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyEntry, BodyId, BodyIndex, BodyInertia, BodyKind, BodyTable,
@@ -46,3 +47,5 @@ pub use settings::{
 };
 pub use simulation::{Beginning, Simulation};
 pub use structure::Structure;
+pub use threads::Threads;
+pub use tumble_team::TeamError;

@@ -8,6 +8,7 @@ use bevy_ecs::schedule::{IntoScheduleConfigs, ScheduleConfigs};
 use bevy_ecs::system::ScheduleSystem;
 use tumble_math::{Dim, Linear, Planar};
 use tumble_solver::Ending;
+use tumble_team::TeamError;
 
 use crate::Clock;
 use crate::body::{
@@ -28,8 +29,9 @@ use crate::needs::Need;
 use crate::notice::Notices;
 use crate::part::{Part, PartOf, Response};
 use crate::schedule::{ForceSystems, UserForce, begin_schedule};
-use crate::settings::{Integrator, Settings};
+use crate::settings::{ContactModel, Integrator, Settings};
 use crate::structure::Structure;
+use crate::threads::Threads;
 
 /// Whether contacts are being detected before a step rather than within it.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -140,12 +142,33 @@ impl<D: Geometry> Simulation<D> {
         self.after_step.push(Box::new(function));
     }
 
+    /// Lets so many threads share the work of a step; 0 counts as 1, which is the default. The bits are the same whatever their number.
+    ///
+    /// Only the soft-step model and the detection of its contacts share their work, in steps that are large enough to gain from it.
+    ///
+    /// # Errors
+    ///
+    /// When the system refuses a thread.
+    pub fn set_threads(&mut self, threads: usize) -> Result<(), TeamError> {
+        self.world.insert_resource(Threads::new(threads)?);
+        Ok(())
+    }
+
     /// Takes one step.
     ///
     /// # Errors
     ///
     /// When a body cannot be simulated, or the state of one is not finite any more; the step is then not counted.
     pub fn step(&mut self) -> Result<(), StepError> {
+        let pairs = self.world.resource::<Detection<D>>().pair_count();
+        if self.world.resource::<Threads>().count() == 1 {
+            return self.step_here();
+        }
+        let team = self.world.resource_mut::<Threads>().choose(pairs).clone();
+        team.enter(|| self.step_here())
+    }
+
+    fn step_here(&mut self) -> Result<(), StepError> {
         let rebuilt = *self.world.resource::<Structure>() == Structure::Changed;
         self.prepare()?;
         self.forget_last_step();
@@ -326,7 +349,9 @@ impl<D: Geometry> Simulation<D> {
         }
         if self.known.contains(&Need::Detection) {
             self.world.resource_mut::<Messages<Touch>>().update();
-            for mut memory in self.memories.iter_mut(&mut self.world) {
+            // Under soft steps, detection itself forgets.
+            let forgets = self.settings().contact != ContactModel::SoftStep;
+            for mut memory in self.memories.iter_mut(&mut self.world).take_while(|_| forgets) {
                 for point in memory.bypass_change_detection().0.as_mut() {
                     let point: &mut PointMemory<D::Vector> = point;
                     point.given = D::Vector::ZERO;
@@ -358,6 +383,7 @@ pub(crate) fn new_world<D: Geometry>(settings: Settings<D>) -> World {
     world.insert_resource(Clock::new(settings.dt));
     world.insert_resource(settings);
     world.init_resource::<Structure>();
+    world.init_resource::<Threads>();
     world.init_resource::<Beginning>();
     world.init_resource::<BodyTable>();
     world.init_resource::<Colliders<D>>();

@@ -4,21 +4,19 @@ use std::collections::{HashMap, HashSet};
 
 use bevy_ecs::prelude::*;
 use tumble_collision::{BroadPhase, PairChanges, TurningBox};
-use tumble_math::{Dim, Linear, Pose};
+use tumble_math::{Dim, Linear, Matrix, Pose};
 
 use super::colliders::may_touch;
-use super::reuse::REUSE_TOLERANCE;
 use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, IgnoredPairs, Materials, PairKey};
-use super::{ContactReuse, PointMemory, Touch, TouchPhase};
+use super::{ContactReuse, Touch, TouchPhase};
 use crate::body::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyIndex, BodyTable, LinearVelocity, Orientation, Position,
 };
 use crate::fault::Fault;
-use crate::geometry::{ContactQuery, Geometry, Posed};
+use crate::geometry::Geometry;
 use crate::joint::JointTable;
 use crate::notice::Notices;
 use crate::part::Response;
-use crate::simulation::Beginning;
 use crate::{Clock, ContactModel, Settings};
 
 /// Pose and motion of a body as of the last detection.
@@ -26,6 +24,8 @@ use crate::{Clock, ContactModel, Settings};
 pub struct BodyMotion<D: Geometry> {
     /// Where it is.
     pub pose: Pose<D>,
+    /// Its axes, as the columns of a matrix.
+    pub axes: D::Matrix,
     /// Velocity of the centre of mass [m/s].
     pub velocity: D::Vector,
     /// Rate of turn [rad/s].
@@ -42,6 +42,7 @@ impl<D: Geometry> Default for BodyMotion<D> {
     fn default() -> Self {
         Self {
             pose: Pose::default(),
+            axes: D::matrix(&D::Rotation::default()),
             velocity: D::Vector::ZERO,
             angular_velocity: D::Angular::ZERO,
             acceleration: D::Vector::ZERO,
@@ -51,19 +52,33 @@ impl<D: Geometry> Default for BodyMotion<D> {
     }
 }
 
+impl<D: Geometry> BodyMotion<D> {
+    /// A point of the world in the body's frame [m].
+    #[inline]
+    pub(super) fn to_body(&self, point: D::Vector) -> D::Vector {
+        self.axes.apply_transposed(point - self.pose.position)
+    }
+
+    /// A point of the body in the world's frame [m].
+    #[inline]
+    pub(super) fn to_world(&self, point: D::Vector) -> D::Vector {
+        self.pose.position + self.axes.apply(point)
+    }
+}
+
 /// Broad phase and poses of the last detection.
 #[derive(Resource, Debug)]
 pub struct Detection<D: Geometry> {
     broad: BroadPhase<D::Vector>,
     changes: PairChanges,
-    motions: Vec<BodyMotion<D>>,
+    pub(super) motions: Vec<BodyMotion<D>>,
     /// Where each part may be until the end of the next step; `None` for a part without bounds.
-    boxes: Vec<Option<D::OrientedBox>>,
+    pub(super) boxes: Vec<Option<D::OrientedBox>>,
     /// The same with the margins of fat volumes: two parts are a pair while both overlap.
     fat_boxes: Vec<Option<D::OrientedBox>>,
     pairs: HashMap<PairKey, Entity>,
     ranks: Ranks,
-    touches: Vec<Touch>,
+    pub(super) touches: Vec<Touch>,
 }
 
 /// Whether the ranks of parts in the broad phase are those of the tables.
@@ -114,9 +129,6 @@ impl<D: Geometry> Detection<D> {
 const FAT_MARGIN: f64 = 0.05;
 /// Steps of steady motion that fat bounds allow for: more finds pairs anew less often [1].
 const STEPS_AHEAD: f64 = 2.0;
-/// Gap up to which a touching point goes on touching, in slops: a body that turns about its contact point lifts it by
-/// ½ r (ω Δt)² in each step, since steps run along tangents.
-const KEEP_TOLERANCE: f64 = 0.01;
 /// Gap within which contact points are made even for bodies at rest, in length scales.
 const REST_MARGIN: f64 = 0.01;
 
@@ -173,6 +185,7 @@ pub fn find_pairs<D: Geometry>(
         let unmoved = detection.ranks == Ranks::Known && motion.pose == pose && reach <= motion.reach;
         *motion = BodyMotion {
             pose,
+            axes: D::matrix(&pose.rotation),
             velocity: velocity.0,
             angular_velocity: spin.0,
             acceleration: acceleration.0,
@@ -354,106 +367,5 @@ fn new_pair<D: Geometry>(
         surface: materials.surface(a.material, b.material),
         response: if sensor { Response::Sensor } else { Response::Solid },
         touching: false,
-    }
-}
-
-/// Contact points of every pair, matched by feature to those of the step before.
-pub fn find_contacts<D: Geometry>(
-    settings: Res<Settings<D>>,
-    colliders: Res<Colliders<D>>,
-    mut detection: ResMut<Detection<D>>,
-    mut pairs: Query<(&mut ContactPair, &mut ContactManifold<D>, &mut ContactMemory<D>, Option<&mut ContactReuse<D>>)>,
-    mut messages: ResMut<Messages<Touch>>,
-    clock: Res<Clock>,
-    beginning: Res<Beginning>,
-    fault: Res<Fault>,
-) {
-    if !fault.is_none() {
-        return;
-    }
-    let time = if *beginning == Beginning::Yes { clock.time() } else { clock.time_after_part() };
-    let detection = &mut *detection;
-    let touch_tolerance = settings.touch_tolerance();
-    let keep_tolerance = touch_tolerance.max(KEEP_TOLERANCE * settings.slop());
-    let reuse_tolerance = REUSE_TOLERANCE * settings.length_scale;
-    for (mut pair, mut manifold, mut memory, reuse) in &mut pairs {
-        let pair = pair.bypass_change_detection();
-        // Fat bounds overlap long before the parts can meet.
-        let boxes = pair.colliders.map(|collider| detection.boxes[collider as usize].as_ref());
-        let apart = matches!(boxes, [Some(a), Some(b)] if !a.overlaps(b));
-        if apart && !pair.touching {
-            if !D::points(&manifold.0).is_empty() {
-                manifold.bypass_change_detection().0 = D::Manifold::default();
-            }
-            continue;
-        }
-        let [a, b] = pair.bodies.map(|body| &detection.motions[body as usize]);
-        let margin = a.reach + b.reach;
-        let poses = [&a.pose, &b.pose];
-        let look = |margin: f64| {
-            let [one, other] = pair.colliders.map(|collider| &colliders.as_slice()[collider as usize].shape);
-            let query = ContactQuery {
-                margin,
-                flush_tolerance: 2.0 * settings.slop() + touch_tolerance,
-                previous: &manifold.0,
-            };
-            D::collide(Posed { shape: one, pose: &a.pose }, Posed { shape: other, pose: &b.pose }, &query)
-        };
-        let found = match reuse {
-            None => look(margin),
-            Some(reuse) if reuse.holds(poses, margin, reuse_tolerance) => reuse.carried(&manifold.0, poses),
-            Some(mut reuse) => {
-                // Farther, by what a step may reach farther and by what bodies may come nearer unnoticed.
-                let margin = margin + reuse_tolerance;
-                let found = look(margin + 2.0 * reuse_tolerance);
-                let extents = pair.colliders.map(|collider| colliders.as_slice()[collider as usize].extent);
-                let size = extents[0].max(extents[1]);
-                *reuse.bypass_change_detection() = ContactReuse::of(&found, poses, size, margin);
-                found
-            }
-        };
-        let memory = &mut memory.bypass_change_detection().0;
-        remember::<D>(&manifold.0, &found, memory);
-        let (mut touching, mut hopped) = (false, true);
-        for (point, memory) in D::points(&found).iter().zip(memory.as_mut()) {
-            let reach = if memory.touches { keep_tolerance } else { touch_tolerance };
-            let flies = memory.flies && point.separation > -touch_tolerance;
-            memory.touches = memory.held || point.separation <= reach && !flies;
-            memory.flies &= !memory.touches;
-            touching |= memory.touches;
-            hopped &= std::mem::take(&mut memory.hopped) || !memory.touches;
-        }
-        if touching != pair.touching {
-            let phase = if touching { TouchPhase::Began } else { TouchPhase::Ended };
-            detection.touches.push(Touch { phase, pair: pair.key, response: pair.response, time });
-            pair.touching = touching;
-        } else if touching && hopped {
-            let [ended, began] = [(TouchPhase::Ended, clock.time()), (TouchPhase::Began, time)]
-                .map(|(phase, time)| Touch { phase, pair: pair.key, response: pair.response, time });
-            detection.touches.extend([ended, began]);
-        }
-        manifold.bypass_change_detection().0 = found;
-    }
-    if !detection.touches.is_empty() {
-        detection.touches.sort_by(|one, other| {
-            one.time.total_cmp(&other.time).then((one.pair, one.phase).cmp(&(other.pair, other.phase)))
-        });
-        messages.write_batch(detection.touches.drain(..));
-    }
-}
-
-/// Carries over what is remembered of the points that are found again.
-fn remember<D: Geometry>(before: &D::Manifold, found: &D::Manifold, memory: &mut D::PerPoint<PointMemory<D::Vector>>) {
-    let old = *memory;
-    let known = D::points(before);
-    for (new, point) in memory.as_mut().iter_mut().zip(D::points(found)) {
-        let place = known.iter().position(|candidate| candidate.feature == point.feature);
-        *new = match place {
-            Some(place) => PointMemory { separation_before: Some(known[place].separation), ..old.as_ref()[place] },
-            None => PointMemory { feature: point.feature, ..PointMemory::default() },
-        };
-        new.feature = point.feature;
-        new.held_back = new.pending.dot(D::normal(found)) > 0.0;
-        new.given += std::mem::replace(&mut new.pending, D::Vector::ZERO);
     }
 }

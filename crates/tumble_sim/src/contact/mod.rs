@@ -14,6 +14,7 @@ mod impact_time;
 mod materials;
 mod pair;
 mod penalty;
+mod points;
 mod problem;
 mod resting;
 mod reuse;
@@ -22,11 +23,12 @@ mod touch;
 mod velocity;
 
 pub use colliders::{Collider, Colliders, IgnoredPairs};
-pub use detect::{Detection, find_contacts, find_pairs, sync_pairs};
+pub use detect::{BodyMotion, Detection, find_pairs, sync_pairs};
 pub use impact_time::{ImpactTimes, MOST_PARTS, look_for_impacts};
 pub use materials::Materials;
 pub use pair::{ContactManifold, ContactMemory, ContactPair, PairKey, PointMemory};
 pub use penalty::{PreviousEnds, apply_lecture_floor, apply_penalty_forces};
+pub use points::find_contacts;
 pub use problem::{ContactProblem, ContactReport};
 pub use resting::{RestingModel, apply_resting_forces};
 pub use reuse::ContactReuse;
@@ -38,3 +40,6 @@ pub(crate) use colliders::prepare_colliders;
 pub(crate) use detect::renumber_pairs;
 pub(crate) use impact_time::{Pass, is_taken};
 pub(crate) use problem::BodyQuery;
+
+/// What slices of contacts rely on.
+const IN_TABLES: &str = "the components of contacts lie in tables";

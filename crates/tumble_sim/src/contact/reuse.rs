@@ -7,19 +7,22 @@
 //! Only models that soften contacts reuse points: the exact ones find them in every step.
 
 use bevy_ecs::prelude::*;
-use tumble_math::{Linear, Pose, Rotation, Vector};
+use tumble_math::{Linear, Matrix, Rotation};
 
+use super::detect::BodyMotion;
 use crate::geometry::Geometry;
 
-/// How far a marker may move before the points are found anew [length scales]: the default slop.
+/// How far centre and tips may move before the points are found anew [length scales]: the default slop.
 pub(super) const REUSE_TOLERANCE: f64 = 0.005;
 
-/// The last contact points that were found, in the frames of the two bodies.
+/// What soft steps remember of a pair besides its points.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct ContactReuse<D: Geometry> {
-    /// b's centre and the ends of its axes, seen from a [m].
-    markers: [D::Vector; 3],
-    /// Length of those axes [m].
+    /// b's centre, seen from a, when points were last found [m].
+    centre: D::Vector,
+    /// b's rotation, seen from a, at the same time.
+    turn: D::Rotation,
+    /// Size of the larger part [m].
     reach: f64,
     /// Points were looked for up to this separation [m].
     margin: f64,
@@ -27,59 +30,61 @@ pub struct ContactReuse<D: Geometry> {
     normal: D::Vector,
     /// Each point on a in a's frame, and on b in b's frame [m].
     anchors: D::PerPoint<[D::Vector; 2]>,
+    /// Angular impulse about the normal with which the next step begins [N·m·s].
+    pub(super) twist: f32,
 }
 
 impl<D: Geometry> Default for ContactReuse<D> {
     fn default() -> Self {
         Self {
-            markers: [D::Vector::ZERO; 3],
+            centre: D::Vector::ZERO,
+            turn: D::Rotation::default(),
             reach: 0.0,
             margin: f64::NEG_INFINITY,
             normal: D::Vector::ZERO,
             anchors: D::PerPoint::default(),
+            twist: 0.0,
         }
     }
 }
 
 impl<D: Geometry> ContactReuse<D> {
-    /// Remembers points found at these poses, up to a margin; `reach` is the size of the larger part [m].
-    pub(super) fn of(found: &D::Manifold, [a, b]: [&Pose<D>; 2], reach: f64, margin: f64) -> Self {
+    /// Remembers points found where the bodies are, up to a margin; `reach` is the size of the larger part [m].
+    pub(super) fn remember(&mut self, found: &D::Manifold, [a, b]: [&BodyMotion<D>; 2], reach: f64, margin: f64) {
         let normal = D::normal(found);
-        let mut anchors = D::PerPoint::<[D::Vector; 2]>::default();
-        for (anchors, point) in anchors.as_mut().iter_mut().zip(D::points(found)) {
+        for (anchors, point) in self.anchors.as_mut().iter_mut().zip(D::points(found)) {
             let half = normal * (0.5 * point.separation);
-            *anchors = [a.inverse_transform_point(point.point - half), b.inverse_transform_point(point.point + half)];
+            *anchors = [a.to_body(point.point - half), b.to_body(point.point + half)];
         }
-        Self { markers: markers(a, b, reach), reach, margin, normal: a.rotation.unrotate(normal), anchors }
+        let twist = if D::points(found).is_empty() { 0.0 } else { self.twist };
+        *self = Self {
+            centre: a.to_body(b.pose.position),
+            turn: b.pose.rotation.seen_from(&a.pose.rotation),
+            reach,
+            margin,
+            normal: a.axes.apply_transposed(normal),
+            anchors: self.anchors,
+            twist,
+        };
     }
 
     /// Whether they are still good: the bodies have hardly moved against each other, and nobody looks farther.
-    pub(super) fn holds(&self, [a, b]: [&Pose<D>; 2], margin: f64, tolerance: f64) -> bool {
-        let near = |(now, then): (D::Vector, &D::Vector)| {
-            let moved = now - *then;
-            moved.dot(moved) <= tolerance * tolerance
-        };
-        margin <= self.margin && markers(a, b, self.reach).into_iter().zip(&self.markers).all(near)
+    #[inline]
+    pub(super) fn holds(&self, [a, b]: [&BodyMotion<D>; 2], margin: f64, tolerance: f64) -> bool {
+        let moved = a.to_body(b.pose.position) - self.centre;
+        let strayed = b.pose.rotation.strayed(&a.pose.rotation, &self.turn);
+        let squared = tolerance * tolerance;
+        margin <= self.margin && moved.dot(moved) <= squared && self.reach * self.reach * strayed <= squared
     }
 
-    /// The points where the bodies are now.
-    pub(super) fn carried(&self, before: &D::Manifold, [a, b]: [&Pose<D>; 2]) -> D::Manifold {
-        let normal = a.rotation.rotate(self.normal);
-        D::placed(before, normal, |number| {
+    /// Carries the points to where the bodies are now.
+    #[inline]
+    pub(super) fn carry(&self, manifold: &mut D::Manifold, [a, b]: [&BodyMotion<D>; 2]) {
+        let normal = a.axes.apply(self.normal);
+        D::carry(manifold, normal, |number| {
             let [on_a, on_b] = self.anchors.as_ref()[number];
-            let (on_a, on_b) = (a.transform_point(on_a), b.transform_point(on_b));
+            let (on_a, on_b) = (a.to_world(on_a), b.to_world(on_b));
             ((on_a + on_b) * 0.5, normal.dot(on_b - on_a))
-        })
+        });
     }
-}
-
-/// b's centre and the ends of all its axes but the last, seen from a: where they are, b is [m].
-fn markers<D: Geometry>(a: &Pose<D>, b: &Pose<D>, reach: f64) -> [D::Vector; 3] {
-    let centre = a.inverse_transform_point(b.position);
-    let mut markers = [centre; 3];
-    for (axis, marker) in markers[1..D::Vector::AXES].iter_mut().enumerate() {
-        let arm = b.rotation.rotate(D::Vector::unit(axis) * reach);
-        *marker += a.rotation.unrotate(arm);
-    }
-    markers
 }

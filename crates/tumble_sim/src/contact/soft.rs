@@ -1,12 +1,15 @@
 //! The system of the soft-step model; see [`tumble_solver::soft_step`].
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Inertia, Linear, Matrix};
-use tumble_solver::soft_step::{SoftPair, SoftPoint, SoftStep, Width};
+use tumble_solver::soft_step::{SoftOutcome, SoftPair, SoftPoint, SoftStep, Width};
 use tumble_solver::{ContactRow, SolverBody};
 
-use super::problem::{BodyQuery, ContactProblem, ContactReport, PairQuery, RowSource};
-use super::{Detection, PositionCorrections};
+use super::problem::{BodyQuery, ContactProblem, ContactReport, RowSource};
+use super::{ContactManifold, ContactMemory, ContactPair, ContactReuse, Detection, IN_TABLES, PositionCorrections};
 use crate::body::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyIndex, BodyTable, InverseInertia, InverseMass,
     LinearVelocity, Orientation, Position,
@@ -17,20 +20,20 @@ use crate::joint::{JointProblem, JointTable, joint_tolerance};
 use crate::ledger::Books;
 use crate::part::Response;
 use crate::schedule::StepSystems;
+use crate::threads::{PAIRS_OF_A_TASK, Threads};
 use crate::{Clock, Settings};
 
 /// The soft-step model with its scratch space.
 #[derive(Resource, Debug)]
 pub struct SoftModel<D: Geometry> {
     model: SoftStep<D>,
-    points: Vec<SoftPoint<D>>,
     /// Whether a contact pushed a body in this step, by rank.
-    pushed: Vec<bool>,
+    pushed: Vec<AtomicBool>,
 }
 
 impl<D: Geometry> Default for SoftModel<D> {
     fn default() -> Self {
-        Self { model: SoftStep::default(), points: Vec::new(), pushed: Vec::new() }
+        Self { model: SoftStep::default(), pushed: Vec::new() }
     }
 }
 
@@ -43,6 +46,18 @@ impl<D: Geometry> SoftModel<D> {
 
 /// Slower approaches than gravity makes in this many steps do not rebound: they are rest [1].
 const REST_STEPS: f64 = 2.0;
+
+type SoftPairs<'w, 's, D> = Query<
+    'w,
+    's,
+    (
+        Entity,
+        &'static ContactPair,
+        &'static ContactManifold<D>,
+        &'static mut ContactMemory<D>,
+        &'static mut ContactReuse<D>,
+    ),
+>;
 
 type SoftBodies<'w, 's, D> = Query<
     'w,
@@ -60,10 +75,14 @@ type SoftBodies<'w, 's, D> = Query<
     ),
 >;
 
+/// Whether the points of a pair push.
+fn pushes<D: Geometry>(pair: &ContactPair, manifold: &ContactManifold<D>) -> bool {
+    pair.response == Response::Solid && !D::points(&manifold.0).is_empty()
+}
+
 /// Takes the substeps: contacts and joints change the velocities, and what else they displace is left for the move.
 pub fn take_soft_steps<D: Geometry>(
-    clock: Res<Clock>,
-    settings: Res<Settings<D>>,
+    (clock, settings, threads): (Res<Clock>, Res<Settings<D>>, Res<Threads>),
     table: Res<BodyTable>,
     detection: Res<Detection<D>>,
     joint_table: Res<JointTable<D>>,
@@ -74,15 +93,15 @@ pub fn take_soft_steps<D: Geometry>(
     mut report: ResMut<ContactReport>,
     mut fault: ResMut<Fault>,
     mut books: Option<ResMut<Books<D>>>,
-    mut pairs: PairQuery<D>,
+    mut pairs: SoftPairs<D>,
     mut bodies: SoftBodies<D>,
 ) {
     if !fault.is_none() {
         return;
     }
-    let dt = clock.part();
+    let (dt, team) = (clock.part(), threads.team());
     let (how, substep) = (&settings.soft_step, dt / f64::from(settings.soft_step.substeps));
-    let SoftModel { model, points, pushed } = &mut *soft;
+    let SoftModel { model, pushed } = &mut *soft;
     let problem = &mut *problem;
     problem.begin_bodies(table.entries().len());
     for (index, velocity, spin, a, alpha, mass, inertia, orientation, _) in &bodies {
@@ -98,32 +117,45 @@ pub fn take_soft_steps<D: Geometry>(
         model.accelerate(index.0, a.0, alpha.0, substep);
     }
 
-    let solid = |pair: &super::ContactPair, manifold: &super::ContactManifold<D>| {
-        pair.response == Response::Solid && !D::points(&manifold.0).is_empty()
-    };
-    for (_, pair, manifold, _) in pairs.iter().filter(|(_, pair, manifold, _)| solid(pair, manifold)) {
-        let [a, b] = pair.bodies;
-        model.announce(a, b, D::points(&manifold.0).len(), &problem.bodies);
+    let mut acts = false;
+    for (_, pairs, manifolds, ..) in pairs.contiguous_iter().expect(IN_TABLES) {
+        for (pair, manifold) in pairs.iter().zip(manifolds) {
+            if pushes(pair, manifold) {
+                let [a, b] = pair.bodies;
+                model.announce(a, b, D::points(&manifold.0).len());
+                acts = true;
+            } else {
+                model.announce_none();
+            }
+        }
     }
-    model.lay_out();
-    let mut number = 0;
-    for (_, pair, manifold, memory) in pairs.iter().filter(|(_, pair, manifold, _)| solid(pair, manifold)) {
-        let [a, b] = pair.bodies;
-        let [at_a, at_b] = pair.bodies.map(|body| detection.motions()[body as usize].pose.position);
-        points.clear();
-        points.extend(D::points(&manifold.0).iter().zip(memory.0.as_ref()).map(|(point, memory)| SoftPoint {
-            arm_a: point.point - at_a,
-            arm_b: point.point - at_b,
-            separation: point.separation,
-            impulse: memory.impulse,
-            slip: memory.slip,
-        }));
-        let normal = D::normal(&manifold.0);
-        let rest_speed = 2.0 * REST_STEPS * settings.rest_speed(normal);
-        let pair = SoftPair { a, b, normal, surface: pair.surface, rest_speed, points };
-        model.fill(number, &pair, &problem.bodies);
-        number += 1;
-    }
+    model.lay_out(team);
+    model.fill(team, |places| {
+        let tables = pairs.contiguous_iter().expect(IN_TABLES);
+        let all =
+            tables.flat_map(|(_, pairs, manifolds, memory, reuse)| pairs.iter().zip(manifolds).zip(memory).zip(reuse));
+        for (number, (((pair, manifold), memory), reuse)) in all.enumerate() {
+            if !places.want(number) {
+                continue;
+            }
+            let [a, b] = pair.bodies;
+            let [at_a, at_b] = pair.bodies.map(|body| detection.motions()[body as usize].pose.position);
+            let found = D::points(&manifold.0);
+            let mut points = D::PerPoint::<SoftPoint<D>>::default();
+            for ((soft, point), memory) in points.as_mut().iter_mut().zip(found).zip(memory.0.as_ref()) {
+                *soft = SoftPoint {
+                    arm_a: point.point - at_a,
+                    arm_b: point.point - at_b,
+                    separation: point.separation,
+                    impulse: memory.impulse,
+                    slip: memory.slip,
+                };
+            }
+            let (normal, surface, points) = (D::normal(&manifold.0), pair.surface, &points.as_ref()[..found.len()]);
+            let rest_speed = 2.0 * REST_STEPS * settings.rest_speed(normal);
+            places.fill(number, &SoftPair { a, b, normal, surface, rest_speed, twist: reuse.twist, points });
+        }
+    });
     joints.build(
         &joint_table,
         bodies.iter().map(|(index, .., orientation, position)| {
@@ -131,59 +163,50 @@ pub fn take_soft_steps<D: Geometry>(
         }),
         &problem.bodies,
     );
-    let acts = number > 0 || !joints.is_empty();
     problem.forget_rows();
     corrections.0.bodies.clear();
-    if !acts {
+    if !acts && joints.is_empty() {
         return;
     }
-    report.add(model.solve(dt, settings.gravity.length(), how, joints.as_joints(), &mut problem.bodies));
+    report.add(model.solve(team, dt, settings.gravity.length(), how, joints.as_joints(), &mut problem.bodies));
 
-    pushed.clear();
-    pushed.resize(problem.bodies.len(), false);
-    let mut number = 0;
-    for (entity, pair, manifold, mut memory) in &mut pairs {
-        if !solid(pair, manifold) {
-            continue;
-        }
-        let frame = D::contact_frame(D::normal(&manifold.0));
-        for (k, (point, memory)) in
-            D::points(&manifold.0).iter().zip(memory.bypass_change_detection().0.as_mut()).enumerate()
-        {
-            let outcome = model.outcome(number, k);
-            (memory.impulse, memory.slip) = (outcome.impulse, outcome.slip);
-            memory.pending += frame.apply(outcome.total);
-            // It met the surface in this step, wherever the rest of the step took it.
-            memory.held = outcome.total[0] > 0.0;
-            if memory.held {
-                for body in pair.bodies {
-                    pushed[body as usize] = true;
+    pushed.resize_with(problem.bodies.len(), AtomicBool::default);
+    pushed.iter_mut().for_each(|pushed| *pushed.get_mut() = false);
+    let (solved, pushed) = (&*model, &*pushed);
+    let mut first = 0;
+    for (_, pairs, manifolds, memories, reuses) in pairs.contiguous_iter_mut().expect(IN_TABLES) {
+        let (memories, _) = ContiguousMut::split(memories);
+        let (reuses, _) = ContiguousMut::split(reuses);
+        let chunks = pairs.chunks(PAIRS_OF_A_TASK).zip(manifolds.chunks(PAIRS_OF_A_TASK));
+        let chunks = chunks.zip(memories.chunks_mut(PAIRS_OF_A_TASK)).zip(reuses.chunks_mut(PAIRS_OF_A_TASK));
+        team.share(chunks.enumerate(), |(chunk, (((pairs, manifolds), memories), reuses))| {
+            let pairs = pairs.iter().zip(manifolds).zip(memories).zip(reuses);
+            for (k, (((pair, manifold), memory), reuse)) in pairs.enumerate() {
+                if !pushes(pair, manifold) {
+                    continue;
+                }
+                let outcome = solved.outcome(first + chunk * PAIRS_OF_A_TASK + k);
+                reuse.twist = outcome.twist();
+                let frame = D::contact_frame(D::normal(&manifold.0));
+                let mut touched = false;
+                for (k, memory) in memory.0.as_mut()[..D::points(&manifold.0).len()].iter_mut().enumerate() {
+                    (memory.impulse, memory.slip) = (outcome.impulse(k), outcome.slip);
+                    memory.pending += frame.apply(outcome.total(k)) + twist_at(&outcome, manifold, k);
+                    // It met the surface in this step, wherever the rest of the step took it.
+                    memory.held = outcome.pushed(k);
+                    touched |= memory.held;
+                }
+                if touched {
+                    for body in pair.bodies {
+                        pushed[body as usize].store(true, Ordering::Relaxed);
+                    }
                 }
             }
-            if books.is_some() && (point.separation <= 0.0 || outcome.total[0] > 0.0) {
-                let [at_a, at_b] = pair.bodies.map(|body| detection.motions()[body as usize].pose.position);
-                problem.rows.push(ContactRow {
-                    a: pair.bodies[0],
-                    b: pair.bodies[1],
-                    frame,
-                    arm_a: point.point - at_a,
-                    arm_b: point.point - at_b,
-                    separation: point.separation,
-                    allowance: point.separation.max(0.0) / substep,
-                    surface: pair.surface,
-                    impulse: outcome.total,
-                    slip: outcome.slip,
-                });
-                problem.sources.push(RowSource {
-                    entity,
-                    point: k as u8,
-                    held: false,
-                    separation_before: memory.separation_before,
-                    held_back: memory.held_back,
-                });
-            }
-        }
-        number += 1;
+        });
+        first += pairs.len();
+    }
+    if books.is_some() {
+        note_rows(problem, solved, &detection, &pairs, substep);
     }
     // In n substeps a free body moves by v₁ Δt − a Δt² (n − 1)/2n, with v₁ its velocity at the end; a whole step of symplectic Euler, by v₁ Δt.
     // A body that no contact pushed takes the whole step: under a force that is constant over the step, substeps would make it swing ever wider.
@@ -197,12 +220,12 @@ pub fn take_soft_steps<D: Geometry>(
             (before.velocity, before.angular_velocity) = (velocity.0, spin.0);
         }
         let shift = &mut corrections.0.bodies[index.0 as usize];
-        let (dv, dw) = model.change(index.0, how);
+        let (dv, dw) = model.change(index.0);
         velocity.bypass_change_detection().0 += dv;
         spin.bypass_change_detection().0 += dw;
         let mut finite = dv.is_finite() && dw.is_finite();
-        if pushed[index.0 as usize] {
-            let (dx, turn) = model.displacement(index.0, dt, how);
+        if pushed[index.0 as usize].load(Ordering::Relaxed) {
+            let (dx, turn) = model.displacement(index.0);
             shift.velocity = dx - dv * dt + a.0 * behind;
             shift.angular_velocity = turn - dw * dt + alpha.0 * behind;
             finite &= dx.is_finite() && turn.is_finite();
@@ -218,6 +241,59 @@ pub fn take_soft_steps<D: Geometry>(
         books.count_impulses(&problem.rows, impulses, joints.rows(), &before, &problem.bodies);
     }
     joints.collect_impulses();
+}
+
+/// What a twist of the pair does at a point, on b in world axes [N·s].
+fn twist_at<D: Geometry>(outcome: &SoftOutcome<D>, manifold: &ContactManifold<D>, point: usize) -> D::Vector {
+    if !outcome.twists() {
+        return D::Vector::ZERO;
+    }
+    let points = D::points(&manifold.0);
+    let mean = points.iter().fold(D::Vector::ZERO, |sum, point| sum + point.point) * (1.0 / points.len() as f64);
+    let squared = points.iter().map(|point| (point.point - mean).dot(point.point - mean)).sum();
+    outcome.twist_at(D::normal(&manifold.0), points[point].point - mean, squared)
+}
+
+/// Notes every point that pushed or could have, for the books.
+fn note_rows<D: Geometry>(
+    problem: &mut ContactProblem<D>,
+    solved: &SoftStep<D>,
+    detection: &Detection<D>,
+    pairs: &SoftPairs<D>,
+    substep: f64,
+) {
+    for (number, (entity, pair, manifold, memory, _)) in pairs.iter().enumerate() {
+        if !pushes(pair, manifold) {
+            continue;
+        }
+        let frame = D::contact_frame(D::normal(&manifold.0));
+        let outcome = solved.outcome(number);
+        for (k, (point, memory)) in D::points(&manifold.0).iter().zip(memory.0.as_ref()).enumerate() {
+            if point.separation > 0.0 && !outcome.pushed(k) {
+                continue;
+            }
+            let [at_a, at_b] = pair.bodies.map(|body| detection.motions()[body as usize].pose.position);
+            problem.rows.push(ContactRow {
+                a: pair.bodies[0],
+                b: pair.bodies[1],
+                frame,
+                arm_a: point.point - at_a,
+                arm_b: point.point - at_b,
+                separation: point.separation,
+                allowance: point.separation.max(0.0) / substep,
+                surface: pair.surface,
+                impulse: outcome.total(k) + frame.apply_transposed(twist_at(&outcome, manifold, k)),
+                slip: outcome.slip,
+            });
+            problem.sources.push(RowSource {
+                entity,
+                point: k as u8,
+                held: false,
+                separation_before: memory.separation_before,
+                held_back: memory.held_back,
+            });
+        }
+    }
 }
 
 /// Adds to the displacements what lets joints end the step closed.

@@ -81,8 +81,8 @@ impl Geometry for Planar {
         manifold.normal
     }
 
-    fn placed(manifold: &PlanarManifold, normal: DVec2, place: impl FnMut(usize) -> (DVec2, f64)) -> PlanarManifold {
-        manifold.placed(normal, place)
+    fn carry(manifold: &mut PlanarManifold, normal: DVec2, place: impl FnMut(usize) -> (DVec2, f64)) {
+        manifold.carry(normal, place);
     }
 
     fn push_joint_rows(

@@ -100,8 +100,8 @@ impl Geometry for Spatial {
         manifold.normal
     }
 
-    fn placed(manifold: &SpatialManifold, normal: DVec3, place: impl FnMut(usize) -> (DVec3, f64)) -> SpatialManifold {
-        manifold.placed(normal, place)
+    fn carry(manifold: &mut SpatialManifold, normal: DVec3, place: impl FnMut(usize) -> (DVec3, f64)) {
+        manifold.carry(normal, place);
     }
 
     fn push_joint_rows(

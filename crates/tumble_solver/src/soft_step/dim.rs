@@ -1,7 +1,7 @@
 //! Vector algebra over lanes, in the plane and in space.
 
 use glam::{DVec2, DVec3};
-use tumble_math::{Dim, Matrix, Planar, Spatial, SymmetricTensor};
+use tumble_math::{Dim, Planar, Spatial, SymmetricTensor};
 
 use super::lanes::{Block, Lanes, Number, WIDTH, Wide};
 
@@ -48,8 +48,22 @@ pub trait Components {
     /// a_i b_i.
     fn each<N: Number>(a: Self::Of<N>, b: Self::Of<N>) -> Self::Of<N>;
 
-    /// Σ a_i b_i.
+    /// Σ a_i b_i, of one component at least.
     fn dot<N: Number>(a: Self::Of<N>, b: Self::Of<N>) -> N;
+
+    /// Each component brought into −bound … bound.
+    fn within<N: Number>(a: Self::Of<N>, bound: Self::Of<N>) -> Self::Of<N>;
+
+    /// 1 over each component; 0 where that is not positive.
+    fn inverse<L: Lanes>(lanes: L, a: Self::Of<L::Number>) -> Self::Of<L::Number>;
+}
+
+/// 1 over a number; 0 where that is not positive.
+#[inline(always)]
+pub fn inverse<L: Lanes>(lanes: L, number: L::Number) -> L::Number {
+    let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+    let safe = Number::if_greater(number, zero, number, one);
+    Number::if_greater(number, zero, one.over(safe), zero)
 }
 
 /// `K` components.
@@ -137,6 +151,22 @@ impl<const K: usize> Components for Count<K> {
         }
         sum
     }
+
+    #[inline(always)]
+    fn within<N: Number>(mut a: [N; K], bound: [N; K]) -> [N; K] {
+        for k in 0..K {
+            a[k] = a[k].larger(-bound[k]).smaller(bound[k]);
+        }
+        a
+    }
+
+    #[inline(always)]
+    fn inverse<L: Lanes>(lanes: L, mut a: [L::Number; K]) -> [L::Number; K] {
+        for number in &mut a {
+            *number = inverse(lanes, *number);
+        }
+        a
+    }
 }
 
 /// Components along the axes.
@@ -147,13 +177,20 @@ pub type Turns<D, T> = <<D as LaneAlgebra>::Turns as Components>::Of<T>;
 pub type Tensor<D, T> = <<D as LaneAlgebra>::Tensor as Components>::Of<T>;
 /// Components along the tangents.
 pub type Tangents<D, T> = <<D as LaneAlgebra>::Tangents as Components>::Of<T>;
+/// Components of a turn about the normal: one in space, none in the plane.
+pub type Twist<D, T> = <<D as LaneAlgebra>::Twist as Components>::Of<T>;
 /// What is stored of a contact frame besides the normal: in space the first tangent.
 pub type Frame<D, T> = <<D as LaneAlgebra>::Frame as Components>::Of<T>;
+
+/// Inverse mass per axis and inverse inertia of a body.
+pub type Masses<D, T> = (Axes<D, T>, Tensor<D, T>);
 
 /// The vectors of a dimension, over lanes.
 pub trait LaneAlgebra: Dim {
     /// Blocks of four numbers that hold a velocity and a rate of turn.
     const BLOCKS: usize;
+    /// Blocks that hold inverse mass and inverse inertia.
+    const MASS_BLOCKS: usize;
     /// See [`Axes`].
     type Axes: Components;
     /// See [`Turns`].
@@ -162,6 +199,8 @@ pub trait LaneAlgebra: Dim {
     type Tensor: Components;
     /// See [`Tangents`].
     type Tangents: Components;
+    /// See [`Twist`].
+    type Twist: Components;
     /// See [`Frame`].
     type Frame: Components;
 
@@ -175,14 +214,17 @@ pub trait LaneAlgebra: Dim {
     fn angular(turns: Turns<Self, f32>) -> Self::Angular;
     /// An inverse inertia, rounded.
     fn tensor(inertia: Self::Inertia) -> Tensor<Self, f32>;
-    /// A contact frame without its normal, rounded.
-    fn frame(frame: &Self::Matrix) -> Frame<Self, f32>;
+    /// The contact frame of a normal, without it, rounded.
+    fn frame(normal: Self::Vector) -> Frame<Self, f32>;
     /// The tangential part of a vector of the contact frame, rounded.
     fn tangents(in_frame: Self::Vector) -> Tangents<Self, f32>;
     /// A vector of the contact frame, widened.
     fn in_frame(normal: f32, tangents: Tangents<Self, f32>) -> Self::Vector;
-    /// 1 / the largest compliance along the tangents [kg]: one mass for all directions, so that friction opposes slip exactly.
-    fn tangent_mass(compliance: &Self::Matrix) -> f64;
+    /// A twist as a number; 0 where there is none.
+    fn twist(twist: Twist<Self, f32>) -> f32;
+    /// Impulse at a point, `arm` from where the points of its pair have their mean, when all of them share a `twist` about the normal:
+    /// without their common factor, one over the sum of their arms squared.
+    fn twisted(normal: Self::Vector, twist: Twist<Self, f32>, arm: Self::Vector) -> Self::Vector;
 
     /// Velocity and rate of turn out of the blocks of a body.
     fn unpack<L: Lanes>(
@@ -194,9 +236,14 @@ pub trait LaneAlgebra: Dim {
     fn pack<L: Lanes>(
         lanes: L,
         state: (Axes<Self, L::Number>, Turns<Self, L::Number>),
-        blocks: &mut [Block],
+        blocks: &[Block],
         at: &[u32; WIDTH],
     );
+
+    /// Inverse mass and inverse inertia into the blocks of a body.
+    fn pack_masses(mass: Self::Vector, inertia: Self::Inertia, blocks: &mut [Block], body: usize);
+    /// The same for the body of each lane.
+    fn unpack_masses<L: Lanes>(lanes: L, blocks: &[Block], at: &[u32; WIDTH]) -> Masses<Self, L::Number>;
 
     /// r × f.
     fn lever<N: Number>(arm: Axes<Self, N>, force: Axes<Self, N>) -> Turns<Self, N>;
@@ -216,6 +263,22 @@ pub trait LaneAlgebra: Dim {
         frame: Frame<Self, N>,
         tangents: Tangents<Self, N>,
     ) -> Axes<Self, N>;
+    /// Rate of turn about the normal.
+    fn about_normal<N: Number>(normal: Axes<Self, N>, turn: Turns<Self, N>) -> Twist<Self, N>;
+    /// The turn about the normal with this component.
+    fn of_twist<L: Lanes>(
+        lanes: L,
+        normal: Axes<Self, L::Number>,
+        twist: Twist<Self, L::Number>,
+    ) -> Turns<Self, L::Number>;
+    /// The largest compliance of a point along the tangents, arms from the two centres of mass [1/kg]: one for all directions, so that friction
+    /// opposes slip exactly.
+    fn tangent_compliance<L: Lanes>(
+        normal: Axes<Self, L::Number>,
+        frame: Frame<Self, L::Number>,
+        bodies: [(Axes<Self, L::Number>, Masses<Self, L::Number>); 2],
+        lanes: L,
+    ) -> L::Number;
     /// The nearest tangential impulse no longer than `bound`, and how long it was squared, less the bound squared.
     fn within_bound<L: Lanes>(
         lanes: L,
@@ -226,10 +289,12 @@ pub trait LaneAlgebra: Dim {
 
 impl LaneAlgebra for Planar {
     const BLOCKS: usize = 1;
+    const MASS_BLOCKS: usize = 1;
     type Axes = Count<2>;
     type Turns = Count<1>;
     type Tensor = Count<1>;
     type Tangents = Count<1>;
+    type Twist = Count<0>;
     type Frame = Count<0>;
 
     fn axes(vector: DVec2) -> [f32; 2] {
@@ -252,7 +317,7 @@ impl LaneAlgebra for Planar {
         [inertia as f32]
     }
 
-    fn frame(_: &glam::DMat2) -> [f32; 0] {
+    fn frame(_: DVec2) -> [f32; 0] {
         []
     }
 
@@ -264,9 +329,12 @@ impl LaneAlgebra for Planar {
         DVec2::new(f64::from(normal), f64::from(tangent))
     }
 
-    fn tangent_mass(compliance: &glam::DMat2) -> f64 {
-        let along = compliance.column(1).y;
-        if along > 0.0 { 1.0 / along } else { 0.0 }
+    fn twist(_: [f32; 0]) -> f32 {
+        0.0
+    }
+
+    fn twisted(_: DVec2, _: [f32; 0], _: DVec2) -> DVec2 {
+        DVec2::ZERO
     }
 
     #[inline(always)]
@@ -276,13 +344,18 @@ impl LaneAlgebra for Planar {
     }
 
     #[inline(always)]
-    fn pack<L: Lanes>(
-        lanes: L,
-        ([x, y], [w]): ([L::Number; 2], [L::Number; 1]),
-        blocks: &mut [Block],
-        at: &[u32; WIDTH],
-    ) {
+    fn pack<L: Lanes>(lanes: L, ([x, y], [w]): ([L::Number; 2], [L::Number; 1]), blocks: &[Block], at: &[u32; WIDTH]) {
         lanes.scatter([x, y, w, lanes.splat(0.0)], blocks, at, 1, 0);
+    }
+
+    fn pack_masses(mass: DVec2, inertia: f64, blocks: &mut [Block], body: usize) {
+        blocks[body].set([mass.x as f32, mass.y as f32, inertia as f32, 0.0]);
+    }
+
+    #[inline(always)]
+    fn unpack_masses<L: Lanes>(lanes: L, blocks: &[Block], at: &[u32; WIDTH]) -> ([L::Number; 2], [L::Number; 1]) {
+        let [x, y, inertia, _] = lanes.gather(blocks, at, 1, 0);
+        ([x, y], [inertia])
     }
 
     #[inline(always)]
@@ -311,6 +384,27 @@ impl LaneAlgebra for Planar {
     }
 
     #[inline(always)]
+    fn about_normal<N: Number>(_: [N; 2], _: [N; 1]) -> [N; 0] {
+        []
+    }
+
+    #[inline(always)]
+    fn of_twist<L: Lanes>(lanes: L, _: [L::Number; 2], _: [L::Number; 0]) -> [L::Number; 1] {
+        [lanes.splat(0.0)]
+    }
+
+    #[inline(always)]
+    fn tangent_compliance<L: Lanes>(
+        normal: [L::Number; 2],
+        _: [L::Number; 0],
+        [a, b]: [([L::Number; 2], ([L::Number; 2], [L::Number; 1])); 2],
+        _: L,
+    ) -> L::Number {
+        let tangent = [normal[1], -normal[0]];
+        compliance::<Self, _>(a, tangent, tangent) + compliance::<Self, _>(b, tangent, tangent)
+    }
+
+    #[inline(always)]
     fn within_bound<L: Lanes>(_: L, tangents: [L::Number; 1], bound: L::Number) -> ([L::Number; 1], L::Number) {
         let beyond = tangents[0] * tangents[0] - bound * bound;
         ([tangents[0].larger(-bound).smaller(bound)], beyond)
@@ -319,10 +413,12 @@ impl LaneAlgebra for Planar {
 
 impl LaneAlgebra for Spatial {
     const BLOCKS: usize = 2;
+    const MASS_BLOCKS: usize = 3;
     type Axes = Count<3>;
     type Turns = Count<3>;
     type Tensor = Count<6>;
     type Tangents = Count<2>;
+    type Twist = Count<1>;
     type Frame = Count<3>;
 
     fn axes(vector: DVec3) -> [f32; 3] {
@@ -346,8 +442,8 @@ impl LaneAlgebra for Spatial {
         [d.x, d.y, d.z, o.x, o.y, o.z]
     }
 
-    fn frame(frame: &glam::DMat3) -> [f32; 3] {
-        frame.column(1).as_vec3().to_array()
+    fn frame(normal: DVec3) -> [f32; 3] {
+        Self::contact_frame(normal).y_axis.as_vec3().to_array()
     }
 
     fn tangents(in_frame: DVec3) -> [f32; 2] {
@@ -358,11 +454,12 @@ impl LaneAlgebra for Spatial {
         DVec3::new(f64::from(normal), f64::from(first), f64::from(second))
     }
 
-    fn tangent_mass(compliance: &glam::DMat3) -> f64 {
-        let (first, second) = (compliance.column(1), compliance.column(2));
-        let (half, skew) = (0.5 * (first.y - second.z), first.z);
-        let largest = 0.5 * (first.y + second.z) + (half * half + skew * skew).sqrt();
-        if largest > 0.0 { 1.0 / largest } else { 0.0 }
+    fn twist([twist]: [f32; 1]) -> f32 {
+        twist
+    }
+
+    fn twisted(normal: DVec3, [twist]: [f32; 1], arm: DVec3) -> DVec3 {
+        normal.cross(arm) * f64::from(twist)
     }
 
     #[inline(always)]
@@ -376,11 +473,25 @@ impl LaneAlgebra for Spatial {
     fn pack<L: Lanes>(
         lanes: L,
         ([x, y, z], [a, b, c]): ([L::Number; 3], [L::Number; 3]),
-        blocks: &mut [Block],
+        blocks: &[Block],
         at: &[u32; WIDTH],
     ) {
         lanes.scatter([x, y, z, lanes.splat(0.0)], blocks, at, 2, 0);
         lanes.scatter([a, b, c, lanes.splat(0.0)], blocks, at, 2, 1);
+    }
+
+    fn pack_masses(mass: DVec3, inertia: SymmetricTensor, blocks: &mut [Block], body: usize) {
+        for (block, vector) in blocks[3 * body..].iter().zip([mass, inertia.diagonal, inertia.off_diagonal]) {
+            block.set([vector.x as f32, vector.y as f32, vector.z as f32, 0.0]);
+        }
+    }
+
+    #[inline(always)]
+    fn unpack_masses<L: Lanes>(lanes: L, blocks: &[Block], at: &[u32; WIDTH]) -> ([L::Number; 3], [L::Number; 6]) {
+        let [x, y, z, _] = lanes.gather(blocks, at, 3, 0);
+        let [xx, yy, zz, _] = lanes.gather(blocks, at, 3, 1);
+        let [yz, xz, xy, _] = lanes.gather(blocks, at, 3, 2);
+        ([x, y, z], [xx, yy, zz, yz, xz, xy])
     }
 
     #[inline(always)]
@@ -410,6 +521,34 @@ impl LaneAlgebra for Spatial {
     }
 
     #[inline(always)]
+    fn about_normal<N: Number>(normal: [N; 3], turn: [N; 3]) -> [N; 1] {
+        [Count::dot(normal, turn)]
+    }
+
+    #[inline(always)]
+    fn of_twist<L: Lanes>(_: L, normal: [L::Number; 3], twist: [L::Number; 1]) -> [L::Number; 3] {
+        Count::times(normal, twist[0])
+    }
+
+    #[inline(always)]
+    fn tangent_compliance<L: Lanes>(
+        normal: [L::Number; 3],
+        frame: [L::Number; 3],
+        [a, b]: [([L::Number; 3], ([L::Number; 3], [L::Number; 6])); 2],
+        lanes: L,
+    ) -> L::Number {
+        let second = cross(normal, frame);
+        let both =
+            |i: [L::Number; 3], j: [L::Number; 3]| compliance::<Self, _>(a, i, j) + compliance::<Self, _>(b, i, j);
+        let (one, other, skew) = (both(frame, frame), both(second, second), both(frame, second));
+        // The larger eigenvalue of two by two.
+        let (zero, half) = (lanes.splat(0.0), lanes.splat(0.5));
+        let apart = half * (one - other);
+        let squared = apart * apart + skew * skew;
+        half * (one + other) + Number::if_greater(squared, zero, squared, zero).sqrt()
+    }
+
+    #[inline(always)]
     fn within_bound<L: Lanes>(lanes: L, tangents: [L::Number; 2], bound: L::Number) -> ([L::Number; 2], L::Number) {
         let squared = Count::dot(tangents, tangents);
         let beyond = squared - bound * bound;
@@ -423,4 +562,15 @@ impl LaneAlgebra for Spatial {
 #[inline(always)]
 fn cross<N: Number>(a: [N; 3], b: [N; 3]) -> [N; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Velocity along i per impulse along j, of a body's point `arm` from its centre of mass.
+#[inline(always)]
+fn compliance<D: LaneAlgebra, N: Number>(
+    (arm, (mass, inertia)): (Axes<D, N>, Masses<D, N>),
+    i: Axes<D, N>,
+    j: Axes<D, N>,
+) -> N {
+    let turned = D::yields(inertia, D::lever(arm, j));
+    D::Axes::dot(i, D::Axes::each(j, mass)) + D::Turns::dot(D::lever(arm, i), turned)
 }

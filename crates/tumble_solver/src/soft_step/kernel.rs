@@ -1,6 +1,6 @@
-//! What is done to a pack: warm start, sweep, rebound. Each is a function of the pack and its bodies alone.
+//! What is done to a pack: preparation, warm start, sweep, rebound. Each is a function of the pack and its bodies alone.
 
-use super::dim::{Axes, Components, SoftDim, Tensor, Turns};
+use super::dim::{Axes, Components, Masses, SoftDim, Tangents, Turns, Twist, inverse};
 use super::lanes::{Block, Lanes, Number};
 use super::pack::Pack;
 
@@ -58,9 +58,16 @@ impl<D: SoftDim, N: Number> Two<D, N> {
     }
 
     #[inline(always)]
-    fn scatter<L: Lanes<Number = N>, const P: usize>(self, lanes: L, pack: &Pack<D, P>, blocks: &mut [Block]) {
+    fn scatter<L: Lanes<Number = N>, const P: usize>(self, lanes: L, pack: &Pack<D, P>, blocks: &[Block]) {
         D::pack(lanes, self.a, blocks, &pack.a);
         D::pack(lanes, self.b, blocks, &pack.b);
+    }
+
+    /// That of b's point relative to a's along the normal: n · (v_b − v_a) + (r_b × n) · ω_b − (r_a × n) · ω_a.
+    #[inline(always)]
+    fn along(&self, normal: Axes<D, N>, turn_a: Turns<D, N>, turn_b: Turns<D, N>) -> N {
+        D::Axes::dot(normal, D::Axes::minus(self.b.0, self.a.0)) + D::Turns::dot(turn_b, self.b.1)
+            - D::Turns::dot(turn_a, self.a.1)
     }
 
     /// That of b's point relative to a's.
@@ -71,23 +78,23 @@ impl<D: SoftDim, N: Number> Two<D, N> {
         D::Axes::minus(b, a)
     }
 
-    /// Applies an impulse: +J to b, −J to a.
+    /// Applies an impulse and the angular impulses that it makes: + to b, − to a.
     #[inline(always)]
-    fn push(&mut self, masses: &Masses<D, N>, arm_a: Axes<D, N>, arm_b: Axes<D, N>, impulse: Axes<D, N>) {
+    fn push(&mut self, masses: &Pair<D, N>, impulse: Axes<D, N>, turn_a: Turns<D, N>, turn_b: Turns<D, N>) {
         self.b.0 = D::Axes::plus(self.b.0, D::Axes::each(impulse, masses.b.0));
-        self.b.1 = D::Turns::plus(self.b.1, D::yields(masses.b.1, D::lever(arm_b, impulse)));
+        self.b.1 = D::Turns::plus(self.b.1, D::yields(masses.b.1, turn_b));
         self.a.0 = D::Axes::minus(self.a.0, D::Axes::each(impulse, masses.a.0));
-        self.a.1 = D::Turns::minus(self.a.1, D::yields(masses.a.1, D::lever(arm_a, impulse)));
+        self.a.1 = D::Turns::minus(self.a.1, D::yields(masses.a.1, turn_a));
     }
 }
 
 /// Inverse masses of the two bodies.
-struct Masses<D: SoftDim, N: Number> {
-    a: (Axes<D, N>, Tensor<D, N>),
-    b: (Axes<D, N>, Tensor<D, N>),
+struct Pair<D: SoftDim, N: Number> {
+    a: Masses<D, N>,
+    b: Masses<D, N>,
 }
 
-impl<D: SoftDim, N: Number> Masses<D, N> {
+impl<D: SoftDim, N: Number> Pair<D, N> {
     #[inline(always)]
     fn load<L: Lanes<Number = N>, const P: usize>(lanes: L, pack: &Pack<D, P>) -> Self {
         Self {
@@ -97,21 +104,103 @@ impl<D: SoftDim, N: Number> Masses<D, N> {
     }
 }
 
+/// Whether a body moves: a positive number if it does.
+#[inline(always)]
+fn moves<D: SoftDim, L: Lanes>(lanes: L, (mass, inertia): Masses<D, L::Number>) -> L::Number {
+    let one = lanes.splat(1.0);
+    let inertia = D::yields(inertia, D::Turns::splat(one));
+    D::Axes::dot(mass, D::Axes::splat(one)) + D::Turns::dot(inertia, D::Turns::splat(one))
+}
+
+/// Fetches the masses of the bodies, and works out how the points yield and which of them rebound from the velocities before the step.
+#[inline(always)]
+pub fn prepare<D: SoftDim, L: Lanes, const P: usize>(
+    lanes: L,
+    pack: &mut Pack<D, P>,
+    masses: &[Block],
+    starts: &[Block],
+) {
+    let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+    let pair = Pair::<D, L::Number> {
+        a: D::unpack_masses(lanes, masses, &pack.a),
+        b: D::unpack_masses(lanes, masses, &pack.b),
+    };
+    D::Axes::store(lanes, pair.a.0, &mut pack.mass_a);
+    D::Axes::store(lanes, pair.b.0, &mut pack.mass_b);
+    D::Tensor::store(lanes, pair.a.1, &mut pack.inertia_a);
+    D::Tensor::store(lanes, pair.b.1, &mut pack.inertia_b);
+    let both = moves::<D, L>(lanes, pair.a).smaller(moves::<D, L>(lanes, pair.b));
+    lanes.store(Number::if_greater(both, zero, zero, one), &mut pack.firm);
+
+    let normal = D::Axes::load(lanes, &pack.normal);
+    let linear = D::Axes::dot(normal, D::Axes::each(normal, D::Axes::plus(pair.a.0, pair.b.0)));
+    let velocities = Two::<D, L::Number>::gather(lanes, pack, starts);
+    let (restitution, rest_speed) = (lanes.load(&pack.restitution), lanes.load(&pack.rest_speed));
+    for point in &mut pack.points {
+        let turn_a = D::Turns::load(lanes, &point.turn_a);
+        let turn_b = D::Turns::load(lanes, &point.turn_b);
+        let angular =
+            D::Turns::dot(turn_a, D::yields(pair.a.1, turn_a)) + D::Turns::dot(turn_b, D::yields(pair.b.1, turn_b));
+        lanes.store(inverse(lanes, linear + angular), &mut point.normal_mass);
+        let approach = -velocities.along(normal, turn_a, turn_b);
+        lanes.store(Number::if_greater(approach, rest_speed, restitution * approach, zero), &mut point.rebound);
+    }
+    let frame = D::Frame::load(lanes, &pack.frame);
+    let arms = [D::Axes::load(lanes, &pack.arm_a), D::Axes::load(lanes, &pack.arm_b)];
+    let tangent = D::tangent_compliance(normal, frame, [(arms[0], pair.a), (arms[1], pair.b)], lanes);
+    lanes.store(inverse(lanes, tangent), &mut pack.tangent_mass);
+    let about = D::of_twist(lanes, normal, D::Twist::splat(one));
+    let turns = D::Turns::plus(D::yields(pair.a.1, about), D::yields(pair.b.1, about));
+    D::Twist::store(lanes, D::Twist::inverse(lanes, D::about_normal(normal, turns)), &mut pack.twist_mass);
+}
+
 /// Applies the impulses that the points have.
 #[inline(always)]
-pub fn warm_start<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &Pack<D, P>, motions: &mut [Block]) {
-    let masses = Masses::<D, L::Number>::load(lanes, pack);
+pub fn warm_start<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &Pack<D, P>, motions: &[Block]) {
+    let masses = Pair::<D, L::Number>::load(lanes, pack);
     let normal = D::Axes::load(lanes, &pack.normal);
-    let frame = D::Frame::load(lanes, &pack.frame);
-    let mut velocities = Two::<D, L::Number>::gather(lanes, pack, motions);
+    let friction = Friction::load(lanes, pack);
+    let (mut turn_a, mut turn_b) =
+        (friction.turn(lanes, normal, friction.arm_a), friction.turn(lanes, normal, friction.arm_b));
+    let mut push = lanes.splat(0.0);
     for point in &pack.points {
-        let arm_a = D::Axes::load(lanes, &point.arm_a);
-        let arm_b = D::Axes::load(lanes, &point.arm_b);
-        let along = D::Axes::times(normal, lanes.load(&point.impulse));
-        let across = D::of_tangents(normal, frame, D::Tangents::load(lanes, &point.tangents));
-        velocities.push(&masses, arm_a, arm_b, D::Axes::plus(along, across));
+        let impulse = lanes.load(&point.impulse);
+        push = push + impulse;
+        turn_a = D::Turns::plus(turn_a, D::Turns::times(D::Turns::load(lanes, &point.turn_a), impulse));
+        turn_b = D::Turns::plus(turn_b, D::Turns::times(D::Turns::load(lanes, &point.turn_b), impulse));
     }
+    let impulse = D::Axes::plus(D::Axes::times(normal, push), friction.impulse);
+    let mut velocities = Two::<D, L::Number>::gather(lanes, pack, motions);
+    velocities.push(&masses, impulse, turn_a, turn_b);
     velocities.scatter(lanes, pack, motions);
+}
+
+/// An impulse across the normal, at the mean of the points, and one about the normal.
+struct Friction<D: SoftDim, N: Number> {
+    arm_a: Axes<D, N>,
+    arm_b: Axes<D, N>,
+    impulse: Axes<D, N>,
+    twist: Twist<D, N>,
+}
+
+impl<D: SoftDim, N: Number> Friction<D, N> {
+    #[inline(always)]
+    fn load<L: Lanes<Number = N>, const P: usize>(lanes: L, pack: &Pack<D, P>) -> Self {
+        let normal = D::Axes::load(lanes, &pack.normal);
+        let frame = D::Frame::load(lanes, &pack.frame);
+        Self {
+            arm_a: D::Axes::load(lanes, &pack.arm_a),
+            arm_b: D::Axes::load(lanes, &pack.arm_b),
+            impulse: D::of_tangents(normal, frame, D::Tangents::load(lanes, &pack.tangents)),
+            twist: D::Twist::load(lanes, &pack.twist),
+        }
+    }
+
+    /// Angular impulse about a centre of mass from which the mean of the points is `arm` away.
+    #[inline(always)]
+    fn turn<L: Lanes<Number = N>>(&self, lanes: L, normal: Axes<D, N>, arm: Axes<D, N>) -> Turns<D, N> {
+        D::Turns::plus(D::lever(arm, self.impulse), D::of_twist(lanes, normal, self.twist))
+    }
 }
 
 /// Which of the two sweeps of a substep.
@@ -124,12 +213,12 @@ pub const RELAXING: bool = false;
 pub fn sweep<D: SoftDim, L: Lanes, const P: usize, const WHICH: bool>(
     lanes: L,
     pack: &mut Pack<D, P>,
-    motions: &mut [Block],
+    motions: &[Block],
     shifts: &[Block],
     how: &Sweep,
 ) -> L::Number {
     let zero = lanes.splat(0.0);
-    let masses = Masses::<D, L::Number>::load(lanes, pack);
+    let masses = Pair::<D, L::Number>::load(lanes, pack);
     let normal = D::Axes::load(lanes, &pack.normal);
     let mut velocities = Two::<D, L::Number>::gather(lanes, pack, motions);
     let moved = Two::<D, L::Number>::gather(lanes, pack, shifts);
@@ -141,11 +230,13 @@ pub fn sweep<D: SoftDim, L: Lanes, const P: usize, const WHICH: bool>(
     let soft_mass = firm_or_soft(lanes, firm, how.firm.mass_scale, how.soft.mass_scale);
     let soft_impulse = firm_or_soft(lanes, firm, how.firm.impulse_scale, how.soft.impulse_scale);
     let slowest = lanes.splat(-how.push_speed);
+    let mut push = zero;
+    let mut twisting = D::Twist::splat(zero);
     for point in &mut pack.points {
-        let arm_a = D::Axes::load(lanes, &point.arm_a);
-        let arm_b = D::Axes::load(lanes, &point.arm_b);
-        let gap = lanes.load(&point.separation) + D::Axes::dot(normal, moved.at(arm_a, arm_b));
-        let speed = D::Axes::dot(normal, velocities.at(arm_a, arm_b));
+        let turn_a = D::Turns::load(lanes, &point.turn_a);
+        let turn_b = D::Turns::load(lanes, &point.turn_b);
+        let gap = lanes.load(&point.separation) + moved.along(normal, turn_a, turn_b);
+        let speed = velocities.along(normal, turn_a, turn_b);
         let mass = lanes.load(&point.normal_mass);
         let before = lanes.load(&point.impulse);
         // A gap may close within the substep, and no more; an overlap is pushed apart like a stiff, strongly damped spring.
@@ -168,37 +259,64 @@ pub fn sweep<D: SoftDim, L: Lanes, const P: usize, const WHICH: bool>(
             let size = change.larger(-change);
             // Where nothing yields there is no mass, and no change either.
             changed = changed.larger(size.over(mass.larger(lanes.splat(f32::MIN_POSITIVE))));
+            push = push + after;
+            twisting = D::Twist::plus(twisting, D::Twist::times(D::Twist::load(lanes, &point.radius), after));
         }
-        velocities.push(&masses, arm_a, arm_b, D::Axes::times(normal, change));
+        let turns = [D::Turns::times(turn_a, change), D::Turns::times(turn_b, change)];
+        velocities.push(&masses, D::Axes::times(normal, change), turns[0], turns[1]);
     }
 
     // After the normals: what the biased sweep leaves of an impulse is too little to bound friction by.
     if WHICH == RELAXING {
-        let frame = D::Frame::load(lanes, &pack.frame);
-        let static_friction = lanes.load(&pack.static_friction);
-        let kinetic_friction = lanes.load(&pack.kinetic_friction);
-        let slow_slip = lanes.splat(how.slow_slip);
-        for point in &mut pack.points {
-            let arm_a = D::Axes::load(lanes, &point.arm_a);
-            let arm_b = D::Axes::load(lanes, &point.arm_b);
-            let slip = D::along_tangents(normal, frame, velocities.at(arm_a, arm_b));
-            let before = D::Tangents::load(lanes, &point.tangents);
-            let stop = D::Tangents::minus(before, D::Tangents::times(slip, lanes.load(&point.tangent_mass)));
-            let bound = lanes.load(&point.friction) * lanes.load(&point.impulse);
-            let (after, beyond) = D::within_bound(lanes, stop, bound);
-            // What slips, and friction cannot stop, slides from now on; all else sticks.
-            let fast = Number::if_greater(D::Tangents::dot(slip, slip), slow_slip, kinetic_friction, static_friction);
-            let friction = Number::if_greater(beyond, zero, fast, static_friction);
-            lanes.store(friction, &mut point.friction);
-            D::Tangents::store(lanes, after, &mut point.tangents);
-            let sum = D::Tangents::load(lanes, &point.total_tangents);
-            D::Tangents::store(lanes, D::Tangents::plus(sum, after), &mut point.total_tangents);
-            let impulse = D::of_tangents(normal, frame, D::Tangents::minus(after, before));
-            velocities.push(&masses, arm_a, arm_b, impulse);
-        }
+        rub(lanes, pack, &mut velocities, &masses, push, twisting, how);
     }
     velocities.scatter(lanes, pack, motions);
     changed
+}
+
+/// Friction of all points of a pair together: across the normal at their mean, bounded by all that they push, and about the normal.
+#[inline(always)]
+fn rub<D: SoftDim, L: Lanes, const P: usize>(
+    lanes: L,
+    pack: &mut Pack<D, P>,
+    velocities: &mut Two<D, L::Number>,
+    masses: &Pair<D, L::Number>,
+    push: L::Number,
+    twisting: Twist<D, L::Number>,
+    how: &Sweep,
+) {
+    let zero = lanes.splat(0.0);
+    let normal = D::Axes::load(lanes, &pack.normal);
+    let frame = D::Frame::load(lanes, &pack.frame);
+    let (arm_a, arm_b) = (D::Axes::load(lanes, &pack.arm_a), D::Axes::load(lanes, &pack.arm_b));
+    let coefficient = lanes.load(&pack.friction);
+
+    let spin = D::about_normal(normal, D::Turns::minus(velocities.b.1, velocities.a.1));
+    let twist_before = D::Twist::load(lanes, &pack.twist);
+    let stop = D::Twist::minus(twist_before, D::Twist::each(spin, D::Twist::load(lanes, &pack.twist_mass)));
+    let twist = D::Twist::within(stop, D::Twist::times(twisting, coefficient));
+    D::Twist::store(lanes, twist, &mut pack.twist);
+    let sum = D::Twist::load(lanes, &pack.total_twist);
+    D::Twist::store(lanes, D::Twist::plus(sum, twist), &mut pack.total_twist);
+    let about = D::of_twist(lanes, normal, D::Twist::minus(twist, twist_before));
+
+    let slip = D::along_tangents(normal, frame, velocities.at(arm_a, arm_b));
+    let before = D::Tangents::load(lanes, &pack.tangents);
+    let stop: Tangents<D, L::Number> =
+        D::Tangents::minus(before, D::Tangents::times(slip, lanes.load(&pack.tangent_mass)));
+    let (after, beyond) = D::within_bound(lanes, stop, coefficient * push);
+    // What slips, and friction cannot stop, slides from now on; all else sticks.
+    let (static_friction, kinetic_friction) = (lanes.load(&pack.static_friction), lanes.load(&pack.kinetic_friction));
+    let slow_slip = lanes.splat(how.slow_slip);
+    let fast = Number::if_greater(D::Tangents::dot(slip, slip), slow_slip, kinetic_friction, static_friction);
+    lanes.store(Number::if_greater(beyond, zero, fast, static_friction), &mut pack.friction);
+    D::Tangents::store(lanes, after, &mut pack.tangents);
+    let sum = D::Tangents::load(lanes, &pack.total_tangents);
+    D::Tangents::store(lanes, D::Tangents::plus(sum, after), &mut pack.total_tangents);
+    let impulse = D::of_tangents(normal, frame, D::Tangents::minus(after, before));
+    let turn_a = D::Turns::plus(D::lever(arm_a, impulse), about);
+    let turn_b = D::Turns::plus(D::lever(arm_b, impulse), about);
+    velocities.push(masses, impulse, turn_a, turn_b);
 }
 
 #[inline(always)]
@@ -208,24 +326,25 @@ fn firm_or_soft<L: Lanes>(lanes: L, firm: L::Number, if_firm: f32, if_soft: f32)
 
 /// Gives back the approach speed of points that were hit in this step (L5, Newton's law).
 #[inline(always)]
-pub fn rebound<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &mut Pack<D, P>, motions: &mut [Block]) {
+pub fn rebound<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &mut Pack<D, P>, motions: &[Block]) {
     let zero = lanes.splat(0.0);
-    let masses = Masses::<D, L::Number>::load(lanes, pack);
+    let masses = Pair::<D, L::Number>::load(lanes, pack);
     let normal = D::Axes::load(lanes, &pack.normal);
     let mut velocities = Two::<D, L::Number>::gather(lanes, pack, motions);
     for point in &mut pack.points {
-        let arm_a = D::Axes::load(lanes, &point.arm_a);
-        let arm_b = D::Axes::load(lanes, &point.arm_b);
+        let turn_a = D::Turns::load(lanes, &point.turn_a);
+        let turn_b = D::Turns::load(lanes, &point.turn_b);
         let (before, total) = (lanes.load(&point.impulse), lanes.load(&point.total));
         let wanted = lanes.load(&point.rebound);
-        let speed = D::Axes::dot(normal, velocities.at(arm_a, arm_b));
+        let speed = velocities.along(normal, turn_a, turn_b);
         let after = (before + lanes.load(&point.normal_mass) * (wanted - speed)).larger(zero);
         let hit = Number::if_greater(total, zero, wanted, zero);
         let after = Number::if_greater(hit, zero, after, before);
         let change = after - before;
         // It does not come again in the next step: only the sum knows of it.
         lanes.store(total + change, &mut point.total);
-        velocities.push(&masses, arm_a, arm_b, D::Axes::times(normal, change));
+        let turns = [D::Turns::times(turn_a, change), D::Turns::times(turn_b, change)];
+        velocities.push(&masses, D::Axes::times(normal, change), turns[0], turns[1]);
     }
     velocities.scatter(lanes, pack, motions);
 }

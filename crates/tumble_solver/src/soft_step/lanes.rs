@@ -3,9 +3,10 @@
 //! Only + − × and comparisons with a choice are used, none of them fused, so that every instruction set gives the same bits.
 
 use std::ops::{Add, Mul, Neg, Sub};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x4, f32x8, mask32x8};
+use fearless_simd::{f32x4, f32x8, f64x2, mask32x8};
 
 use super::dim::Cell;
 
@@ -17,10 +18,51 @@ pub const WIDTH: usize = 8;
 #[repr(align(32))]
 pub struct Wide(pub [f32; WIDTH]);
 
-/// Four numbers of one body: one aligned load.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Four numbers of one body, side by side.
+///
+/// The threads of a team share all blocks. Pairs of one colour have no moving body in common, so each block is written by one thread at a
+/// time; a barrier stands between colours. Bodies that cannot move are never changed, though several may write them at once.
+#[derive(Debug, Default)]
 #[repr(align(16))]
-pub struct Block(pub [f32; 4]);
+pub struct Block([AtomicU64; 2]);
+
+impl Block {
+    /// The numbers.
+    #[inline(always)]
+    pub fn get(&self) -> [f32; 4] {
+        let [low, high] = self.halves();
+        let number = |half: u64, shift: u32| f32::from_bits((half >> shift) as u32);
+        [number(low, 0), number(low, 32), number(high, 0), number(high, 32)]
+    }
+
+    /// Sets them.
+    #[inline(always)]
+    pub fn set(&self, [a, b, c, d]: [f32; 4]) {
+        let half = |low: f32, high: f32| u64::from(low.to_bits()) | u64::from(high.to_bits()) << 32;
+        self.0[0].store(half(a, b), Ordering::Relaxed);
+        self.0[1].store(half(c, d), Ordering::Relaxed);
+    }
+
+    #[inline(always)]
+    fn halves(&self) -> [u64; 2] {
+        [self.0[0].load(Ordering::Relaxed), self.0[1].load(Ordering::Relaxed)]
+    }
+
+    /// The numbers in a register.
+    #[inline(always)]
+    pub fn load<S: Simd>(&self, simd: S) -> f32x4<S> {
+        let [low, high] = self.halves();
+        f64x2::simd_from(simd, [f64::from_bits(low), f64::from_bits(high)]).bitcast()
+    }
+
+    /// Sets them from a register.
+    #[inline(always)]
+    pub fn store<S: Simd>(&self, numbers: f32x4<S>) {
+        let halves: f64x2<S> = numbers.bitcast();
+        self.0[0].store(halves[0].to_bits(), Ordering::Relaxed);
+        self.0[1].store(halves[1].to_bits(), Ordering::Relaxed);
+    }
+}
 
 /// A number of each lane, in a register.
 pub trait Number: Cell + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
@@ -64,7 +106,7 @@ pub trait Lanes: Copy {
     fn gather(self, blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize) -> [Self::Number; 4];
 
     /// Writes them back.
-    fn scatter(self, numbers: [Self::Number; 4], blocks: &mut [Block], at: &[u32; WIDTH], stride: usize, offset: usize);
+    fn scatter(self, numbers: [Self::Number; 4], blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize);
 }
 
 /// All eight, in registers of the widest kind that the machine has.
@@ -117,20 +159,20 @@ impl<S: Simd> Lanes for All<S> {
 
     #[inline(always)]
     fn gather(self, blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize) -> [f32x8<S>; 4] {
-        let row = |lane: usize| f32x4::load_array_ref(self.0, &blocks[at[lane] as usize * stride + offset].0);
+        let row = |lane: usize| blocks[at[lane] as usize * stride + offset].load(self.0);
         let [a, b, c, d] = transposed([row(0), row(1), row(2), row(3)]);
         let [e, f, g, h] = transposed([row(4), row(5), row(6), row(7)]);
         [a.combine(e), b.combine(f), c.combine(g), d.combine(h)]
     }
 
     #[inline(always)]
-    fn scatter(self, numbers: [f32x8<S>; 4], blocks: &mut [Block], at: &[u32; WIDTH], stride: usize, offset: usize) {
+    fn scatter(self, numbers: [f32x8<S>; 4], blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize) {
         let [(a, e), (b, f), (c, g), (d, h)] =
             [numbers[0].split(), numbers[1].split(), numbers[2].split(), numbers[3].split()];
         let (low, high) = (transposed([a, b, c, d]), transposed([e, f, g, h]));
         for lane in 0..4 {
-            low[lane].store_array(&mut blocks[at[lane] as usize * stride + offset].0);
-            high[lane].store_array(&mut blocks[at[lane + 4] as usize * stride + offset].0);
+            blocks[at[lane] as usize * stride + offset].store(low[lane]);
+            blocks[at[lane + 4] as usize * stride + offset].store(high[lane]);
         }
     }
 }
@@ -176,11 +218,11 @@ impl Lanes for One {
 
     #[inline(always)]
     fn gather(self, blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize) -> [f32; 4] {
-        blocks[at[self.0] as usize * stride + offset].0
+        blocks[at[self.0] as usize * stride + offset].get()
     }
 
     #[inline(always)]
-    fn scatter(self, numbers: [f32; 4], blocks: &mut [Block], at: &[u32; WIDTH], stride: usize, offset: usize) {
-        blocks[at[self.0] as usize * stride + offset].0 = numbers;
+    fn scatter(self, numbers: [f32; 4], blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize) {
+        blocks[at[self.0] as usize * stride + offset].set(numbers);
     }
 }

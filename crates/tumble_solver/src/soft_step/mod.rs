@@ -17,6 +17,9 @@
 //! The biased sweep pushes overlaps apart like springs that are as stiff as h allows; the relaxing sweep takes the speed that
 //! they added out again, so that pushing adds no energy. Overlaps carry: a pile sinks a little into itself.
 //!
+//! The points of a pair push each for itself, but rub together: one friction impulse at their mean, bounded by all that they push, and in
+//! space a twist about the normal. Along a straight side of the plane that is the same; in space it is what a stiff, flat contact does.
+//!
 //! Pairs are coloured so that those of one colour share no moving body, and go through the kernels eight at a time in single precision. What
 //! is computed is the *change* that contacts make: it is added to states of double precision, and a body without contacts is not touched at all.
 //! Every instruction set, and the plain version one lane at a time, give the same bits.
@@ -28,15 +31,22 @@ mod dim;
 mod kernel;
 mod lanes;
 mod pack;
+mod plan;
+mod run;
 
-use fearless_simd::{Level, Simd};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
+use fearless_simd::Level;
+use tumble_team::Team;
 
 use crate::joint::Joints;
 use crate::{Ending, Report, SolverBody};
-use colours::{COLOURS, Colours, OVERFLOW};
-use kernel::{BIASED, RELAXING, Softness, Sweep};
-use lanes::{All, Block, Lanes, Number, One, WIDTH, Wide};
-use pack::{Pack, moves};
+use colours::{COLOURS, Colours};
+use kernel::{Softness, Sweep};
+use lanes::{Block, One, WIDTH};
+use pack::moves;
+use plan::{Class, MEMBERS, NOBODY, Place, ROOM, Share};
+use run::{Held, Member, Shared};
 
 pub use dim::SoftDim;
 pub use pack::{SoftOutcome, SoftPair, SoftPoint};
@@ -75,57 +85,8 @@ pub enum Width {
 /// Slower than this many times what gravity adds in a substep, a point does not slide yet [1]: so much slips before its friction is known.
 const SLOW_SLIP: f64 = 1.0;
 
-/// How many points the packs of a class have room for.
-const ROOM: [usize; 3] = [1, 2, 4];
-
-/// Where a pair went.
-#[derive(Clone, Copy, Debug, Default)]
-struct Place {
-    colour: u8,
-    class: u8,
-    lane: u8,
-    pack: u32,
-}
-
-/// The packs of a class in the order of colours, and where each colour begins.
-#[derive(Clone)]
-struct Class<D: SoftDim, const P: usize> {
-    packs: Vec<Pack<D, P>>,
-    starts: [u32; COLOURS + 1],
-}
-
-impl<D: SoftDim, const P: usize> Default for Class<D, P> {
-    fn default() -> Self {
-        Self { packs: Vec::new(), starts: [0; COLOURS + 1] }
-    }
-}
-
-impl<D: SoftDim, const P: usize> Class<D, P> {
-    /// Makes room for so many pairs of each colour.
-    fn lay_out(&mut self, counts: &[u32; COLOURS], world: u32) {
-        let mut packs = 0;
-        for (colour, count) in counts.iter().enumerate() {
-            self.starts[colour] = packs;
-            packs += if colour == OVERFLOW { *count } else { count.div_ceil(WIDTH as u32) };
-        }
-        self.starts[COLOURS] = packs;
-        self.packs.clear();
-        self.packs.resize(packs as usize, Pack::unused(world));
-    }
-
-    fn of_colour(&mut self, colour: usize) -> &mut [Pack<D, P>] {
-        &mut self.packs[self.starts[colour] as usize..self.starts[colour + 1] as usize]
-    }
-}
-
-/// What a pass over all packs does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pass {
-    WarmStart,
-    Biased,
-    Relaxing,
-    Rebound,
-}
+/// Fewer packs than this for each thread are not worth waking it [1].
+const PACKS_FOR_A_THREAD: usize = 32;
 
 /// The model with its scratch space.
 pub struct SoftStep<D: SoftDim> {
@@ -139,12 +100,18 @@ pub struct SoftStep<D: SoftDim> {
     gains: Vec<Block>,
     /// Velocities before the step.
     starts: Vec<Block>,
+    /// Inverse masses and inertias: `MASS_BLOCKS` blocks for each body.
+    masses: Vec<Block>,
+    /// Which bodies impulses move.
+    moving: Vec<bool>,
     colours: Colours,
     places: Vec<Place>,
     counts: [[u32; COLOURS]; ROOM.len()],
     one: Class<D, 1>,
     two: Class<D, 2>,
     four: Class<D, 4>,
+    /// How many threads share the packs.
+    members: usize,
     /// Colours that some pair has, in order.
     used: Vec<usize>,
     rebounds: bool,
@@ -160,12 +127,15 @@ impl<D: SoftDim> Default for SoftStep<D> {
             shifts: Vec::new(),
             gains: Vec::new(),
             starts: Vec::new(),
+            masses: Vec::new(),
+            moving: Vec::new(),
             colours: Colours::default(),
             places: Vec::new(),
             counts: [[0; COLOURS]; ROOM.len()],
             one: Class::default(),
             two: Class::default(),
             four: Class::default(),
+            members: 1,
             used: Vec::new(),
             rebounds: false,
             jointed: Vec::new(),
@@ -182,18 +152,65 @@ impl<D: SoftDim> std::fmt::Debug for SoftStep<D> {
 /// Velocity and rate of turn, acceleration and angular acceleration: the same two kinds of quantity.
 type Motion<D> = (<D as tumble_math::Dim>::Vector, <D as tumble_math::Dim>::Angular);
 
+fn set<D: SoftDim>(list: &[Block], body: u32, (linear, angular): Motion<D>) {
+    D::pack(One(0), (D::axes(linear), D::turns(angular)), list, &[body; WIDTH]);
+}
+
+fn get<D: SoftDim>(list: &[Block], body: u32) -> Motion<D> {
+    let (linear, angular) = D::unpack(One(0), list, &[body; WIDTH]);
+    (D::vector(linear), D::angular(angular))
+}
+
+/// The places of one thread, to be filled.
+pub struct Places<'a, D: SoftDim> {
+    member: u8,
+    places: &'a [Place],
+    one: Share<'a, D, 1>,
+    two: Share<'a, D, 2>,
+    four: Share<'a, D, 4>,
+    rebounds: bool,
+}
+
+impl<D: SoftDim> Places<'_, D> {
+    /// Whether the pair announced as number `k` belongs to this thread.
+    #[inline]
+    pub fn want(&self, k: usize) -> bool {
+        self.places[k].member == self.member
+    }
+
+    /// Puts it into its place.
+    pub fn fill(&mut self, k: usize, pair: &SoftPair<'_, D>) {
+        let Place { class, lane, pack, .. } = self.places[k];
+        let lane = lane as usize;
+        self.rebounds |= pair.surface.restitution > 0.0;
+        match class {
+            0 => self.one.pack(pack).fill(lane, pair),
+            1 => self.two.pack(pack).fill(lane, pair),
+            _ => self.four.pack(pack).fill(lane, pair),
+        }
+    }
+}
+
 impl<D: SoftDim> SoftStep<D> {
     /// Begins a step: `bodies` as they are before it, the world last.
     pub fn begin(&mut self, bodies: &[SolverBody<D>]) {
         let blocks = bodies.len() * D::BLOCKS;
         for list in [&mut self.motions, &mut self.shifts, &mut self.gains, &mut self.starts] {
-            list.clear();
-            list.resize(blocks, Block::default());
+            list.resize_with(blocks, Block::default);
         }
+        for (shift, gain) in self.shifts.iter().zip(&self.gains) {
+            shift.set([0.0; 4]);
+            gain.set([0.0; 4]);
+        }
+        self.masses.resize_with(bodies.len() * D::MASS_BLOCKS, Block::default);
+        self.moving.clear();
         for (i, body) in bodies.iter().enumerate() {
-            self.set(i, |soft| &mut soft.motions, (body.velocity, body.angular_velocity));
+            let motion = (body.velocity, body.angular_velocity);
+            set::<D>(&self.motions, i as u32, motion);
+            set::<D>(&self.starts, i as u32, motion);
+            D::pack_masses(body.inverse_mass, body.inverse_inertia, &mut self.masses, i);
+            self.moving.push(moves(body));
         }
-        self.starts.copy_from_slice(&self.motions);
         self.colours.begin(bodies.len());
         self.places.clear();
         self.counts = [[0; COLOURS]; ROOM.len()];
@@ -202,139 +219,135 @@ impl<D: SoftDim> SoftStep<D> {
 
     /// Tells what forces do to a body in a step of `dt` cut in `substeps` [m/s²].
     pub fn accelerate(&mut self, body: u32, acceleration: D::Vector, angular: D::Angular, substep: f64) {
-        self.set(body as usize, |soft| &mut soft.gains, (acceleration * substep, angular * substep));
-    }
-
-    fn set(&mut self, body: usize, list: impl Fn(&mut Self) -> &mut Vec<Block>, (linear, angular): Motion<D>) {
-        let lane = One(0);
-        let mut at = [0; WIDTH];
-        at[0] = body as u32;
-        D::pack(lane, (D::axes(linear), D::turns(angular)), list(self), &at);
-    }
-
-    fn get(&self, body: usize, list: &[Block]) -> Motion<D> {
-        let mut at = [0; WIDTH];
-        at[0] = body as u32;
-        let (linear, angular) = D::unpack(One(0), list, &at);
-        (D::vector(linear), D::angular(angular))
+        set::<D>(&self.gains, body, (acceleration * substep, angular * substep));
     }
 
     /// Announces the next pair, before [`lay_out`](Self::lay_out): its bodies and the number of its points, one to four.
-    pub fn announce(&mut self, a: u32, b: u32, points: usize, bodies: &[SolverBody<D>]) {
+    pub fn announce(&mut self, a: u32, b: u32, points: usize) {
         let class = ROOM.iter().position(|room| points <= *room).expect("no manifold has more than four points");
-        let moving = [a, b].map(|body| moves(&bodies[body as usize]));
+        let moving = [a, b].map(|body| self.moving[body as usize]);
         let colour = self.colours.choose([a, b], moving);
         self.counts[class][colour] += 1;
         self.places.push(Place { colour: colour as u8, class: class as u8, ..Place::default() });
     }
 
-    /// Finds the place of every announced pair.
-    pub fn lay_out(&mut self) {
+    /// Announces a pair that has no points now: it takes a number and nothing else.
+    pub fn announce_none(&mut self) {
+        self.places.push(Place { member: NOBODY, ..Place::default() });
+    }
+
+    /// Finds the place of every announced pair, for a team that will share them.
+    pub fn lay_out(&mut self, team: &Team) {
+        let packs = self.counts.iter().flatten().sum::<u32>() as usize / WIDTH;
+        self.members = team.size().min(packs / PACKS_FOR_A_THREAD).clamp(1, MEMBERS);
         let world = (self.motions.len() / D::BLOCKS) as u32 - 1;
-        self.one.lay_out(&self.counts[0], world);
-        self.two.lay_out(&self.counts[1], world);
-        self.four.lay_out(&self.counts[2], world);
+        self.one.lay_out(&self.counts[0], self.members, world);
+        self.two.lay_out(&self.counts[1], self.members, world);
+        self.four.lay_out(&self.counts[2], self.members, world);
         self.used.clear();
         self.used.extend((0..COLOURS).filter(|colour| self.counts.iter().any(|counts| counts[*colour] > 0)));
         let mut next = [[0_u32; COLOURS]; ROOM.len()];
-        let starts = [&self.one.starts, &self.two.starts, &self.four.starts];
-        for place in &mut self.places {
+        for place in self.places.iter_mut().filter(|place| place.member != NOBODY) {
             let (class, colour) = (place.class as usize, place.colour as usize);
-            let number = next[class][colour];
+            let (number, pairs) = (next[class][colour], self.counts[class][colour]);
             next[class][colour] += 1;
-            let (pack, lane) =
-                if colour == OVERFLOW { (number, 0) } else { (number / WIDTH as u32, number % WIDTH as u32) };
-            place.pack = starts[class][colour] + pack;
-            place.lane = lane as u8;
+            (place.pack, place.lane, place.member) = match class {
+                0 => self.one.place(colour, number, pairs),
+                1 => self.two.place(colour, number, pairs),
+                _ => self.four.place(colour, number, pairs),
+            };
         }
     }
 
-    /// Puts the pair announced as number `k` into its place.
-    pub fn fill(&mut self, k: usize, pair: &SoftPair<'_, D>, bodies: &[SolverBody<D>]) {
-        let Place { class, lane, pack, .. } = self.places[k];
-        let (pack, lane) = (pack as usize, lane as usize);
-        self.rebounds |= match class {
-            0 => self.one.packs[pack].fill(lane, pair, bodies),
-            1 => self.two.packs[pack].fill(lane, pair, bodies),
-            _ => self.four.packs[pack].fill(lane, pair, bodies),
-        };
+    /// Puts every announced pair into its place: each thread calls `walk`, which offers all pairs, and takes those that it wants.
+    pub fn fill(&mut self, team: &Team, walk: impl Fn(&mut Places<'_, D>) + Sync) {
+        let Self { one, two, four, places, members, .. } = self;
+        let rebounds = AtomicBool::new(false);
+        let (mut one, mut two, mut four) = (one.shares(), two.shares(), four.shares());
+        let shares = (0..*members).map(|member| Places {
+            member: member as u8,
+            places,
+            one: one.next().expect("every member has a share"),
+            two: two.next().expect("every member has a share"),
+            four: four.next().expect("every member has a share"),
+            rebounds: false,
+        });
+        team.together(shares, |mut share, _| {
+            walk(&mut share);
+            rebounds.fetch_or(share.rebounds, Ordering::Relaxed);
+        });
+        self.rebounds = rebounds.into_inner();
     }
 
     /// Takes a step of `dt` under a `gravity` [m/s²]. Joints hold at the end of every sweep, in double precision; `bodies` lend their inverse masses.
     pub fn solve(
         &mut self,
+        team: &Team,
         dt: f64,
         gravity: f64,
         settings: &SoftSettings,
-        mut joints: Option<Joints<'_, D>>,
+        joints: Option<Joints<'_, D>>,
         bodies: &mut [SolverBody<D>],
     ) -> Report {
         let h = dt / f64::from(settings.substeps);
         let frequency = settings.frequency.min(0.25 / h);
-        let how = Sweep {
-            per_substep: (1.0 / h) as f32,
-            soft: Softness::new(frequency, settings.damping_ratio, h),
-            firm: Softness::new(2.0 * frequency, settings.damping_ratio, h),
-            push_speed: settings.push_speed as f32,
-            slow_slip: ((SLOW_SLIP * gravity * h) * (SLOW_SLIP * gravity * h)) as f32,
-        };
         self.list_jointed(&joints, bodies.len());
-        let mut changed = 0.0;
-        for _ in 0..settings.substeps {
-            add(&mut self.motions, &self.gains, 1.0);
-            self.pass(Pass::WarmStart, &how);
-            self.pass(Pass::Biased, &how);
-            self.hold_joints(&mut joints, bodies);
-            add(&mut self.shifts, &self.motions, h as f32);
-            changed = self.pass(Pass::Relaxing, &how);
-            self.hold_joints(&mut joints, bodies);
-        }
-        if self.rebounds {
-            self.pass(Pass::Rebound, &how);
-            self.hold_joints(&mut joints, bodies);
-        }
-        Report { iterations: 2 * settings.substeps, residual: f64::from(changed), ending: Ending::Converged }
+        let Self { motions, shifts, gains, starts, masses, used, jointed, .. } = self;
+        let shared = Shared {
+            motions,
+            shifts,
+            gains,
+            starts,
+            masses,
+            used,
+            rebounds: self.rebounds,
+            joints: joints.is_some(),
+            substeps: settings.substeps,
+            substep: h as f32,
+            how: Sweep {
+                per_substep: (1.0 / h) as f32,
+                soft: Softness::new(frequency, settings.damping_ratio, h),
+                firm: Softness::new(2.0 * frequency, settings.damping_ratio, h),
+                push_speed: settings.push_speed as f32,
+                slow_slip: ((SLOW_SLIP * gravity * h) * (SLOW_SLIP * gravity * h)) as f32,
+            },
+            changed: AtomicU32::new(0),
+        };
+        let (members, width, blocks) = (self.members, self.width, shared.motions.len());
+        let mut held = joints.map(|joints| Held { joints, jointed, bodies });
+        let (mut one, mut two, mut four) = (self.one.shares(), self.two.shares(), self.four.shares());
+        let shares = (0..members).map(|member| Member {
+            one: one.next().expect("every member has a share"),
+            two: two.next().expect("every member has a share"),
+            four: four.next().expect("every member has a share"),
+            blocks: blocks * member / members..blocks * (member + 1) / members,
+            held: held.take(),
+        });
+        team.together(shares, |member, barrier| run::run(width, member, &shared, barrier));
+        let residual = f64::from(f32::from_bits(shared.changed.into_inner()));
+        Report { iterations: 2 * settings.substeps, residual, ending: Ending::Converged }
     }
 
     /// What contacts and joints changed of the velocity of a body in this step, exactly nothing where there were none [m/s].
-    pub fn change(&self, body: u32, settings: &SoftSettings) -> Motion<D> {
-        let (free, _) = self.free(body, settings, 0.0);
-        self.since(body, &self.motions, &free)
+    pub fn change(&self, body: u32) -> Motion<D> {
+        get::<D>(&self.motions, body)
     }
 
     /// What they changed of its place [m] and turn [rad].
-    pub fn displacement(&self, body: u32, dt: f64, settings: &SoftSettings) -> Motion<D> {
-        let (_, free) = self.free(body, settings, (dt / f64::from(settings.substeps)) as f32);
-        self.since(body, &self.shifts, &free)
+    pub fn displacement(&self, body: u32) -> Motion<D> {
+        get::<D>(&self.shifts, body)
     }
 
-    /// What the step did at a point of pair number `k`.
-    pub fn outcome(&self, k: usize, point: usize) -> SoftOutcome<D> {
+    /// What the step did to pair number `k`.
+    #[inline]
+    pub fn outcome(&self, k: usize) -> SoftOutcome<D> {
         let Place { class, lane, pack, .. } = self.places[k];
-        let (pack, lane) = (pack as usize, lane as usize);
+        let lane = lane as usize;
         match class {
-            0 => self.one.packs[pack].outcome(lane, point),
-            1 => self.two.packs[pack].outcome(lane, point),
-            _ => self.four.packs[pack].outcome(lane, point),
+            0 => self.one.pack(pack).outcome(lane),
+            1 => self.two.pack(pack).outcome(lane),
+            _ => self.four.pack(pack).outcome(lane),
         }
-    }
-
-    /// Velocity and displacement of a body that nothing touches, in the very sums of [`solve`](Self::solve).
-    fn free(&self, body: u32, settings: &SoftSettings, h: f32) -> ([Block; 2], [Block; 2]) {
-        let (mut motion, mut shift) = ([Block::default(); 2], [Block::default(); 2]);
-        let range = body as usize * D::BLOCKS..(body as usize + 1) * D::BLOCKS;
-        motion[..D::BLOCKS].copy_from_slice(&self.starts[range.clone()]);
-        for _ in 0..settings.substeps {
-            add(&mut motion[..D::BLOCKS], &self.gains[range.clone()], 1.0);
-            add(&mut shift[..D::BLOCKS], &motion[..D::BLOCKS], h);
-        }
-        (motion, shift)
-    }
-
-    fn since(&self, body: u32, list: &[Block], free: &[Block; 2]) -> Motion<D> {
-        let (linear, angular) = self.get(body as usize, list);
-        let (free_linear, free_angular) = self.get(0, free);
-        (linear - free_linear, angular - free_angular)
     }
 
     fn list_jointed(&mut self, joints: &Option<Joints<'_, D>>, bodies: usize) {
@@ -344,124 +357,6 @@ impl<D: SoftDim> SoftStep<D> {
             self.jointed.extend(ends.filter(|body| (*body as usize) < bodies));
             self.jointed.sort_unstable();
             self.jointed.dedup();
-        }
-    }
-
-    fn hold_joints(&mut self, joints: &mut Option<Joints<'_, D>>, bodies: &mut [SolverBody<D>]) {
-        let Some(joints) = joints else { return };
-        for &body in &self.jointed {
-            let (velocity, angular_velocity) = self.get(body as usize, &self.motions);
-            let body = &mut bodies[body as usize];
-            (body.velocity, body.angular_velocity) = (velocity, angular_velocity);
-        }
-        joints.block.stop(bodies, joints.rows);
-        for k in 0..self.jointed.len() {
-            let body = self.jointed[k] as usize;
-            let after = (bodies[body].velocity, bodies[body].angular_velocity);
-            self.set(body, |soft| &mut soft.motions, after);
-        }
-    }
-
-    /// Passes over all packs, colour by colour; returns the largest change of a separating speed [m/s].
-    fn pass(&mut self, pass: Pass, how: &Sweep) -> f32 {
-        let level = match self.width {
-            Width::Widest => Level::new(),
-            Width::Level(level) => level,
-            Width::Plain => return self.plain(pass, how),
-        };
-        let mut worst = Wide::default();
-        self.run(level, pass, how, &mut worst);
-        worst.0.into_iter().fold(0.0, f32::max)
-    }
-
-    /// Two levels are enough here, and each costs seconds of compiling: eight lanes in one register, or in two.
-    #[cfg(target_arch = "x86_64")]
-    fn run(&mut self, level: Level, pass: Pass, how: &Sweep, worst: &mut Wide) {
-        if let Some(simd) = level.as_avx2() {
-            simd.vectorize(
-                #[inline(always)]
-                || self.wide(simd, pass, how, worst),
-            );
-        } else if let Some(simd) = level.as_sse2() {
-            simd.vectorize(
-                #[inline(always)]
-                || self.wide(simd, pass, how, worst),
-            );
-        }
-    }
-
-    #[cfg(not(target_arch = "x86_64"))]
-    fn run(&mut self, level: Level, pass: Pass, how: &Sweep, worst: &mut Wide) {
-        fearless_simd::dispatch!(level, simd => self.wide(simd, pass, how, worst));
-    }
-
-    #[inline(always)]
-    fn wide<S: Simd>(&mut self, simd: S, pass: Pass, how: &Sweep, worst: &mut Wide) {
-        let Self { motions, shifts, one, two, four, used, .. } = self;
-        let lanes = All(simd);
-        let mut changed = lanes.splat(0.0);
-        for &colour in &*used {
-            for pack in four.of_colour(colour) {
-                changed = visit(lanes, pass, pack, motions, shifts, how, changed);
-            }
-            for pack in two.of_colour(colour) {
-                changed = visit(lanes, pass, pack, motions, shifts, how, changed);
-            }
-            for pack in one.of_colour(colour) {
-                changed = visit(lanes, pass, pack, motions, shifts, how, changed);
-            }
-        }
-        lanes.store(changed, worst);
-    }
-
-    /// The oracle: the same, one lane after the other.
-    fn plain(&mut self, pass: Pass, how: &Sweep) -> f32 {
-        let Self { motions, shifts, one, two, four, used, .. } = self;
-        let mut changed = 0.0;
-        for &colour in &*used {
-            for pack in four.of_colour(colour) {
-                changed = (0..WIDTH).fold(changed, |most, k| visit(One(k), pass, pack, motions, shifts, how, most));
-            }
-            for pack in two.of_colour(colour) {
-                changed = (0..WIDTH).fold(changed, |most, k| visit(One(k), pass, pack, motions, shifts, how, most));
-            }
-            for pack in one.of_colour(colour) {
-                changed = (0..WIDTH).fold(changed, |most, k| visit(One(k), pass, pack, motions, shifts, how, most));
-            }
-        }
-        changed
-    }
-}
-
-/// Does to a pack what the pass says; returns the largest change of a separating speed so far, by lane.
-#[inline(always)]
-fn visit<D: SoftDim, L: Lanes, const P: usize>(
-    lanes: L,
-    pass: Pass,
-    pack: &mut Pack<D, P>,
-    motions: &mut [Block],
-    shifts: &[Block],
-    how: &Sweep,
-    changed: L::Number,
-) -> L::Number {
-    match pass {
-        Pass::WarmStart => kernel::warm_start(lanes, pack, motions),
-        Pass::Biased => {
-            kernel::sweep::<D, L, P, BIASED>(lanes, pack, motions, shifts, how);
-        }
-        Pass::Relaxing => {
-            return changed.larger(kernel::sweep::<D, L, P, RELAXING>(lanes, pack, motions, shifts, how));
-        }
-        Pass::Rebound => kernel::rebound(lanes, pack, motions),
-    }
-    changed
-}
-
-/// list += other · factor.
-fn add(list: &mut [Block], other: &[Block], factor: f32) {
-    for (block, other) in list.iter_mut().zip(other) {
-        for (number, other) in block.0.iter_mut().zip(other.0) {
-            *number += other * factor;
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Pairs packed by eights: what the kernels read, number by number.
 
-use tumble_math::{Dim, Inertia, Linear, Matrix};
+use tumble_math::{Dim, Inertia, Linear};
 
-use super::dim::{Axes, Components, Frame, SoftDim, Tangents, Tensor};
+use super::dim::{Axes, Components, Frame, SoftDim, Tangents, Tensor, Turns, Twist};
 use super::lanes::{WIDTH, Wide};
 use crate::{Slip, SolverBody, Surface};
 
@@ -19,6 +19,8 @@ pub struct SoftPair<'a, D: Dim> {
     pub surface: Surface,
     /// Approach slower than this does not rebound [m/s].
     pub rest_speed: f64,
+    /// [Angular impulse about the normal](SoftOutcome::twist) of the last substep of the step before [N·m·s].
+    pub twist: f32,
     /// One to four points.
     pub points: &'a [SoftPoint<D>],
 }
@@ -45,18 +47,71 @@ impl<D: Dim> Default for SoftPoint<D> {
     }
 }
 
-/// What a step did at a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SoftOutcome<D: Dim> {
-    /// Impulse of the last substep, in the contact frame [N·s].
-    pub impulse: D::Vector,
-    /// Impulse of the whole step, in the contact frame [N·s].
-    pub total: D::Vector,
-    /// Whether the point slides.
+/// What a step did to a pair.
+#[derive(Clone, Copy)]
+pub struct SoftOutcome<D: SoftDim> {
+    points: [PointOutcome; 4],
+    tangents: Tangents<D, f32>,
+    total_tangents: Tangents<D, f32>,
+    twist: Twist<D, f32>,
+    total_twist: Twist<D, f32>,
+    /// Whether the pair slides.
     pub slip: Slip,
 }
 
+/// What a step did along the normal at a point [N·s].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct PointOutcome {
+    /// In the last substep.
+    impulse: f32,
+    /// In the whole step.
+    total: f32,
+}
+
+/// Part of one in a sum; nothing of nothing.
+fn part(one: f32, sum: f32) -> f32 {
+    if sum > 0.0 { one / sum } else { 0.0 }
+}
+
+impl<D: SoftDim> SoftOutcome<D> {
+    /// Impulse of the last substep at a point, in the contact frame: each has as much of the friction as it has of the push [N·s].
+    pub fn impulse(&self, point: usize) -> D::Vector {
+        let sum = self.points.iter().map(|point| point.impulse).sum();
+        let push = self.points[point].impulse;
+        D::in_frame(push, D::Tangents::times(self.tangents, part(push, sum)))
+    }
+
+    /// Impulse of the whole step at a point, in the contact frame, without what twisting adds [N·s].
+    pub fn total(&self, point: usize) -> D::Vector {
+        let sum = self.points.iter().map(|point| point.total).sum();
+        let push = self.points[point].total;
+        D::in_frame(push, D::Tangents::times(self.total_tangents, part(push, sum)))
+    }
+
+    /// Whether the points pushed in this step.
+    pub fn pushed(&self, point: usize) -> bool {
+        self.points[point].total > 0.0
+    }
+
+    /// Angular impulse about the normal in the last substep, for [`SoftPair::twist`]; 0 in the plane [N·m·s].
+    pub fn twist(&self) -> f32 {
+        D::twist(self.twist)
+    }
+
+    /// Whether the pair was turned about its normal.
+    pub fn twists(&self) -> bool {
+        D::twist(self.total_twist) != 0.0
+    }
+
+    /// Part of a point in that turn, in world axes: `arm` from the mean of the points, whose arms `squared` sum up to so much [N·s].
+    pub fn twist_at(&self, normal: D::Vector, arm: D::Vector, squared: f64) -> D::Vector {
+        if squared > 0.0 { D::twisted(normal, self.total_twist, arm) * (1.0 / squared) } else { D::Vector::ZERO }
+    }
+}
+
 /// Eight pairs with up to `N` points each. Lanes without a pair yield to nothing.
+///
+/// The points of a pair push each for itself; they rub together, at their mean.
 #[derive(Clone, Copy)]
 pub struct Pack<D: SoftDim, const N: usize> {
     pub a: [u32; WIDTH],
@@ -68,30 +123,43 @@ pub struct Pack<D: SoftDim, const N: usize> {
     pub mass_b: Axes<D, Wide>,
     pub inertia_a: Tensor<D, Wide>,
     pub inertia_b: Tensor<D, Wide>,
-    pub static_friction: Wide,
-    pub kinetic_friction: Wide,
     /// 1 where one of the two cannot move, otherwise 0.
     pub firm: Wide,
     pub points: [PackedPoint<D>; N],
+    /// Mean of the points, seen from the two centres of mass.
+    pub arm_a: Axes<D, Wide>,
+    pub arm_b: Axes<D, Wide>,
+    pub static_friction: Wide,
+    pub kinetic_friction: Wide,
+    /// The coefficient that bounds friction at present.
+    pub friction: Wide,
+    pub tangent_mass: Wide,
+    pub tangents: Tangents<D, Wide>,
+    pub twist_mass: Twist<D, Wide>,
+    pub twist: Twist<D, Wide>,
+    /// Impulses of the step so far.
+    pub total_tangents: Tangents<D, Wide>,
+    pub total_twist: Twist<D, Wide>,
+    /// What only the start of the step reads.
+    pub restitution: Wide,
+    pub rest_speed: Wide,
 }
 
 /// One point of eight pairs.
 #[derive(Clone, Copy)]
 pub struct PackedPoint<D: SoftDim> {
-    pub arm_a: Axes<D, Wide>,
-    pub arm_b: Axes<D, Wide>,
+    /// r × n for each body: rate of turn to separating speed, and push to angular impulse.
+    pub turn_a: Turns<D, Wide>,
+    pub turn_b: Turns<D, Wide>,
     pub separation: Wide,
     pub normal_mass: Wide,
-    pub tangent_mass: Wide,
-    /// The coefficient that bounds friction at present.
-    pub friction: Wide,
     pub impulse: Wide,
-    pub tangents: Tangents<D, Wide>,
-    /// Impulses of the step so far.
+    /// Impulse of the step so far.
     pub total: Wide,
-    pub total_tangents: Tangents<D, Wide>,
     /// Separating speed to reach after an impact; 0 for a point that does not rebound.
     pub rebound: Wide,
+    /// Distance from the mean of the points.
+    pub radius: Twist<D, Wide>,
 }
 
 /// A gap that never closes [m].
@@ -101,22 +169,32 @@ fn zero<C: Components>() -> C::Of<Wide> {
     C::splat(Wide::default())
 }
 
+fn none<C: Components>() -> C::Of<f32> {
+    C::splat(0.0)
+}
+
 impl<D: SoftDim> PackedPoint<D> {
     fn unused() -> Self {
-        let none = Wide::default();
         Self {
-            arm_a: zero::<D::Axes>(),
-            arm_b: zero::<D::Axes>(),
+            turn_a: zero::<D::Turns>(),
+            turn_b: zero::<D::Turns>(),
             separation: Wide([FAR; WIDTH]),
-            normal_mass: none,
-            tangent_mass: none,
-            friction: none,
-            impulse: none,
-            tangents: zero::<D::Tangents>(),
-            total: none,
-            total_tangents: zero::<D::Tangents>(),
-            rebound: none,
+            normal_mass: Wide::default(),
+            impulse: Wide::default(),
+            total: Wide::default(),
+            rebound: Wide::default(),
+            radius: zero::<D::Twist>(),
         }
+    }
+
+    /// A point that never pushes.
+    fn clear(&mut self, lane: usize) {
+        D::Turns::put(none::<D::Turns>(), lane, &mut self.turn_a);
+        D::Turns::put(none::<D::Turns>(), lane, &mut self.turn_b);
+        self.separation.0[lane] = FAR;
+        self.impulse.0[lane] = 0.0;
+        self.total.0[lane] = 0.0;
+        D::Twist::put(none::<D::Twist>(), lane, &mut self.radius);
     }
 }
 
@@ -132,61 +210,89 @@ impl<D: SoftDim, const N: usize> Pack<D, N> {
             mass_b: zero::<D::Axes>(),
             inertia_a: zero::<D::Tensor>(),
             inertia_b: zero::<D::Tensor>(),
-            static_friction: Wide::default(),
-            kinetic_friction: Wide::default(),
             firm: Wide::default(),
             points: [PackedPoint::unused(); N],
+            arm_a: zero::<D::Axes>(),
+            arm_b: zero::<D::Axes>(),
+            static_friction: Wide::default(),
+            kinetic_friction: Wide::default(),
+            friction: Wide::default(),
+            tangent_mass: Wide::default(),
+            tangents: zero::<D::Tangents>(),
+            twist_mass: zero::<D::Twist>(),
+            twist: zero::<D::Twist>(),
+            total_tangents: zero::<D::Tangents>(),
+            total_twist: zero::<D::Twist>(),
+            restitution: Wide::default(),
+            rest_speed: Wide::default(),
         }
     }
 
-    /// Puts a pair into a lane; `bodies` have the velocities of the step's start. Returns whether a point of it rebounds.
-    pub fn fill(&mut self, lane: usize, pair: &SoftPair<'_, D>, bodies: &[SolverBody<D>]) -> bool {
-        let (a, b) = (&bodies[pair.a as usize], &bodies[pair.b as usize]);
-        let frame = D::contact_frame(pair.normal);
+    /// Puts a pair into a lane.
+    pub fn fill(&mut self, lane: usize, pair: &SoftPair<'_, D>) {
+        let (normal, surface) = (pair.normal, &pair.surface);
         (self.a[lane], self.b[lane]) = (pair.a, pair.b);
-        D::Axes::put(D::axes(pair.normal), lane, &mut self.normal);
-        D::Frame::put(D::frame(&frame), lane, &mut self.frame);
-        D::Axes::put(D::axes(a.inverse_mass), lane, &mut self.mass_a);
-        D::Axes::put(D::axes(b.inverse_mass), lane, &mut self.mass_b);
-        D::Tensor::put(D::tensor(a.inverse_inertia), lane, &mut self.inertia_a);
-        D::Tensor::put(D::tensor(b.inverse_inertia), lane, &mut self.inertia_b);
-        let surface = &pair.surface;
+        D::Axes::put(D::axes(normal), lane, &mut self.normal);
+        D::Frame::put(D::frame(normal), lane, &mut self.frame);
+        let (used, unused) = self.points.split_at_mut(pair.points.len());
+        let mut mean = [D::Vector::ZERO; 2];
+        let mut tangents = D::Vector::ZERO;
+        for (place, point) in used.iter_mut().zip(pair.points) {
+            D::Turns::put(D::turns(D::torque(point.arm_a, normal)), lane, &mut place.turn_a);
+            D::Turns::put(D::turns(D::torque(point.arm_b, normal)), lane, &mut place.turn_b);
+            place.separation.0[lane] = point.separation as f32;
+            place.impulse.0[lane] = point.impulse[0] as f32;
+            place.total.0[lane] = 0.0;
+            mean = [mean[0] + point.arm_a, mean[1] + point.arm_b];
+            tangents += point.impulse;
+        }
+        for place in unused {
+            place.clear(lane);
+        }
+        let share = 1.0 / pair.points.len() as f64;
+        let mean = mean.map(|sum| sum * share);
+        for (place, point) in self.points.iter_mut().zip(pair.points) {
+            D::Twist::put(D::Twist::splat((point.arm_a - mean[0]).length() as f32), lane, &mut place.radius);
+        }
+        D::Axes::put(D::axes(mean[0]), lane, &mut self.arm_a);
+        D::Axes::put(D::axes(mean[1]), lane, &mut self.arm_b);
+        let slides = pair.points.iter().any(|point| point.slip == Slip::Sliding);
+        let friction = if slides { surface.kinetic_friction } else { surface.static_friction };
         self.static_friction.0[lane] = surface.static_friction as f32;
         self.kinetic_friction.0[lane] = surface.kinetic_friction as f32;
-        self.firm.0[lane] = if moves(a) && moves(b) { 0.0 } else { 1.0 };
-        let mut rebounds = false;
-        for (place, point) in self.points.iter_mut().zip(pair.points) {
-            let compliance = D::Matrix::from_columns(|axis| {
-                let impulse = frame.column(axis);
-                frame.apply_transposed(b.yield_at(point.arm_b, impulse) + a.yield_at(point.arm_a, impulse))
-            });
-            let along = compliance.column(0)[0];
-            let approach = pair.normal.dot(a.point_velocity(point.arm_a) - b.point_velocity(point.arm_b));
-            let rebound = if approach > pair.rest_speed { surface.restitution * approach } else { 0.0 };
-            rebounds |= rebound > 0.0;
-            D::Axes::put(D::axes(point.arm_a), lane, &mut place.arm_a);
-            D::Axes::put(D::axes(point.arm_b), lane, &mut place.arm_b);
-            place.separation.0[lane] = point.separation as f32;
-            place.normal_mass.0[lane] = if along > 0.0 { (1.0 / along) as f32 } else { 0.0 };
-            place.tangent_mass.0[lane] = D::tangent_mass(&compliance) as f32;
-            place.friction.0[lane] = match point.slip {
-                Slip::Sticking => surface.static_friction as f32,
-                Slip::Sliding => surface.kinetic_friction as f32,
-            };
-            place.impulse.0[lane] = point.impulse[0] as f32;
-            D::Tangents::put(D::tangents(point.impulse), lane, &mut place.tangents);
-            place.rebound.0[lane] = rebound as f32;
-        }
-        rebounds
+        self.friction.0[lane] = friction as f32;
+        D::Tangents::put(D::tangents(tangents), lane, &mut self.tangents);
+        D::Twist::put(D::Twist::splat(pair.twist), lane, &mut self.twist);
+        D::Tangents::put(none::<D::Tangents>(), lane, &mut self.total_tangents);
+        D::Twist::put(none::<D::Twist>(), lane, &mut self.total_twist);
+        self.restitution.0[lane] = surface.restitution as f32;
+        self.rest_speed.0[lane] = pair.rest_speed as f32;
     }
 
-    /// What the step did at a point of a lane.
-    pub fn outcome(&self, lane: usize, point: usize) -> SoftOutcome<D> {
-        let point = &self.points[point];
-        let sticks = point.friction.0[lane] >= self.static_friction.0[lane];
+    /// Leaves a lane without a pair: `world` is a body that nothing moves.
+    pub fn clear(&mut self, lane: usize, world: u32) {
+        (self.a[lane], self.b[lane]) = (world, world);
+        for point in &mut self.points {
+            point.clear(lane);
+        }
+        D::Tangents::put(none::<D::Tangents>(), lane, &mut self.tangents);
+        D::Twist::put(none::<D::Twist>(), lane, &mut self.twist);
+        self.restitution.0[lane] = 0.0;
+    }
+
+    /// What the step did to the pair in a lane.
+    pub fn outcome(&self, lane: usize) -> SoftOutcome<D> {
+        let sticks = self.friction.0[lane] >= self.static_friction.0[lane];
+        let mut points = [PointOutcome::default(); 4];
+        for (outcome, point) in points.iter_mut().zip(&self.points) {
+            (outcome.impulse, outcome.total) = (point.impulse.0[lane], point.total.0[lane]);
+        }
         SoftOutcome {
-            impulse: D::in_frame(point.impulse.0[lane], D::Tangents::take(&point.tangents, lane)),
-            total: D::in_frame(point.total.0[lane], D::Tangents::take(&point.total_tangents, lane)),
+            points,
+            tangents: D::Tangents::take(&self.tangents, lane),
+            total_tangents: D::Tangents::take(&self.total_tangents, lane),
+            twist: D::Twist::take(&self.twist, lane),
+            total_twist: D::Twist::take(&self.total_twist, lane),
             slip: if sticks { Slip::Sticking } else { Slip::Sliding },
         }
     }

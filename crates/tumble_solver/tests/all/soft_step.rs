@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use tumble_math::{Inertia, Linear, Planar, Spatial, SymmetricTensor};
 use tumble_solver::soft_step::{SoftDim, SoftPair, SoftPoint, SoftSettings, SoftStep, Width};
 use tumble_solver::{Slip, SolverBody, Surface};
+use tumble_team::Team;
 
 const DT: f64 = 1.0 / 60.0;
 
@@ -35,6 +36,10 @@ type Outcome<D> = (
 );
 
 fn step<D: SoftDim>(problem: &Problem<D>, width: Width) -> (Outcome<D>, f64) {
+    step_shared(problem, width, &Team::alone())
+}
+
+fn step_shared<D: SoftDim>(problem: &Problem<D>, width: Width, team: &Team) -> (Outcome<D>, f64) {
     let settings = SoftSettings::default();
     let mut model = SoftStep::<D>::default();
     model.width = width;
@@ -44,22 +49,26 @@ fn step<D: SoftDim>(problem: &Problem<D>, width: Width) -> (Outcome<D>, f64) {
         model.accelerate(i as u32, *a, *alpha, DT / f64::from(settings.substeps));
     }
     for pair in &problem.pairs {
-        model.announce(pair.a, pair.b, pair.points.len(), &bodies);
+        model.announce(pair.a, pair.b, pair.points.len());
     }
-    model.lay_out();
-    for (k, pair) in problem.pairs.iter().enumerate() {
-        let Pair { a, b, normal, surface, points } = pair;
-        let pair = SoftPair { a: *a, b: *b, normal: *normal, surface: *surface, rest_speed: 0.1, points };
-        model.fill(k, &pair, &bodies);
-    }
-    let report = model.solve(DT, 10.0, &settings, None, &mut bodies);
+    model.lay_out(team);
+    model.fill(team, |places| {
+        for (k, pair) in problem.pairs.iter().enumerate() {
+            let Pair { a, b, normal, surface, points } = pair;
+            let pair =
+                SoftPair { a: *a, b: *b, normal: *normal, surface: *surface, rest_speed: 0.1, twist: 0.01, points };
+            if places.want(k) {
+                places.fill(k, &pair);
+            }
+        }
+    });
+    let report = model.solve(team, DT, 10.0, &settings, None, &mut bodies);
     let count = problem.bodies.len() as u32;
-    let velocities = (0..count).map(|i| model.change(i, &settings)).collect();
-    let displacements = (0..count).map(|i| model.displacement(i, DT, &settings)).collect();
+    let velocities = (0..count).map(|i| model.change(i)).collect();
+    let displacements = (0..count).map(|i| model.displacement(i)).collect();
     let impulses = (problem.pairs.iter().enumerate())
         .flat_map(|(k, pair)| (0..pair.points.len()).map(move |point| (k, point)))
-        .map(|(k, point)| model.outcome(k, point))
-        .map(|outcome| (outcome.total, outcome.slip))
+        .map(|(k, point)| (model.outcome(k).total(point), model.outcome(k).slip))
         .collect();
     ((velocities, displacements, impulses), report.residual)
 }
@@ -217,6 +226,37 @@ proptest! {
     }
 }
 
+/// The same problem so many times, side by side, on one world: enough pairs for every thread of a team.
+fn repeated<D: SoftDim>(problem: &Problem<D>, times: usize) -> Problem<D> {
+    let count = problem.bodies.len() - 1;
+    let mut many = Problem { bodies: Vec::new(), accelerations: Vec::new(), pairs: Vec::new() };
+    for k in 0..times {
+        many.bodies.extend_from_slice(&problem.bodies[..count]);
+        many.accelerations.extend_from_slice(&problem.accelerations[..count]);
+        let place = |body: u32| if body as usize == count { (times * count) as u32 } else { body + (k * count) as u32 };
+        many.pairs.extend(problem.pairs.iter().map(|pair| Pair { a: place(pair.a), b: place(pair.b), ..pair.clone() }));
+    }
+    many.bodies.push(problem.bodies[count]);
+    many.accelerations.push(problem.accelerations[count]);
+    many
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 8, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_team_gives_the_bits_of_one_thread(planar in planar_problem(), spatial in spatial_problem()) {
+        let (planar, spatial) = (repeated(&planar, 100), repeated(&spatial, 100));
+        let alone = (step(&planar, Width::Widest), step(&spatial, Width::Widest));
+        for threads in 2..=4 {
+            let team = Team::new(threads).unwrap();
+            prop_assert!(step_shared(&planar, Width::Widest, &team) == alone.0, "{threads} threads in the plane");
+            prop_assert!(step_shared(&spatial, Width::Widest, &team) == alone.1, "{threads} threads in space");
+            prop_assert!(step_shared(&planar, Width::Plain, &team) == alone.0, "{threads} threads, lane by lane");
+        }
+    }
+}
+
 #[test]
 fn a_body_without_contacts_is_not_touched() {
     let body = SolverBody {
@@ -261,24 +301,25 @@ fn a_box_at_rest_is_carried_by_its_weight() {
         let mut bodies = problem.bodies.clone();
         model.begin(&bodies);
         model.accelerate(0, problem.accelerations[0].0, 0.0, DT / 4.0);
-        model.announce(1, 0, 2, &bodies);
-        model.lay_out();
-        let pair = &problem.pairs[0];
-        let known = SoftPair { a: 1, b: 0, normal: DVec2::Y, surface, rest_speed: 0.3, points: &pair.points };
-        model.fill(0, &known, &bodies);
-        model.solve(DT, 10.0, &settings, None, &mut bodies);
-        let (change, _) = model.change(0, &settings);
-        let (shift, turn) = model.displacement(0, DT, &settings);
+        model.announce(1, 0, 2);
+        let alone = Team::alone();
+        model.lay_out(&alone);
+        let points = &problem.pairs[0].points;
+        let pair = SoftPair { a: 1, b: 0, normal: DVec2::Y, surface, rest_speed: 0.3, twist: 0.0, points };
+        model.fill(&alone, |places| places.fill(0, &pair));
+        model.solve(&alone, DT, 10.0, &settings, None, &mut bodies);
+        let (change, _) = model.change(0);
+        let (shift, turn) = model.displacement(0);
         let free = problem.accelerations[0].0 * (DT * DT * 5.0 / 8.0);
         let moved = problem.bodies[0].velocity * DT + free + shift;
         problem.bodies[0].velocity += change + problem.accelerations[0].0 * DT;
         total = DVec2::ZERO;
         for (k, point) in problem.pairs[0].points.iter_mut().enumerate() {
-            let outcome = model.outcome(0, k);
-            point.impulse = outcome.impulse;
+            let outcome = model.outcome(0);
+            point.impulse = outcome.impulse(k);
             point.slip = outcome.slip;
             point.separation += moved.y + turn * point.arm_b.x;
-            total += outcome.total;
+            total += outcome.total(k);
         }
     }
     // Weight and push of a step, to single precision of sums of four; the tangent of an upward normal is +x.
