@@ -50,8 +50,8 @@ pub struct BroadPhase<V> {
     /// Ids whose mark is not `Clean`.
     marked: Vec<u32>,
     pairs: Vec<(u32, u32)>,
-    /// Scratch space, kept so that a steady step allocates nothing.
-    candidates: Vec<(u32, u32)>,
+    /// Scratch space, kept so that a steady step allocates nothing: pairs as one number each, the smaller id in its upper half.
+    candidates: Vec<u64>,
     stack: Vec<u32>,
 }
 
@@ -205,7 +205,7 @@ impl<V: Vector> BroadPhase<V> {
         candidates.clear();
         for &id in marked.iter() {
             let Some(proxy) = proxies[id as usize] else { continue };
-            let mut add = |other: u32| candidates.push((id.min(other), id.max(other)));
+            let mut add = |other: u32| candidates.push(u64::from(id.min(other)) << 32 | u64::from(id.max(other)));
             match &proxy.fat {
                 Volume::Box(bounds) => {
                     // Of two marked boxes, the one with the smaller id reports the pair.
@@ -235,7 +235,7 @@ impl<V: Vector> BroadPhase<V> {
     /// Merges those sorted candidates into the sorted pairs that are not there yet and that the filter wants.
     fn add_new_pairs(&mut self, filter: &impl Fn(u32, u32) -> bool, added: &mut Vec<(u32, u32)>) {
         let mut known = self.pairs.iter().peekable();
-        for &pair in &self.candidates {
+        for pair in self.candidates.iter().map(|pair| ((pair >> 32) as u32, *pair as u32)) {
             while known.next_if(|&&other| other < pair).is_some() {}
             if known.peek() != Some(&&pair) && filter(pair.0, pair.1) {
                 added.push(pair);

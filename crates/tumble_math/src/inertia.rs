@@ -21,6 +21,9 @@ pub trait Inertia<W: Angular, R>: Copy + std::fmt::Debug + Default + PartialEq +
 
     /// The map scaled by a factor.
     fn scaled(&self, factor: f64) -> Self;
+
+    /// Whether it looks the same after any rotation, to the last bit.
+    fn is_spherical(&self) -> bool;
 }
 
 impl Inertia<f64, PlanarRotation> for f64 {
@@ -43,6 +46,11 @@ impl Inertia<f64, PlanarRotation> for f64 {
     #[inline]
     fn scaled(&self, factor: f64) -> Self {
         self * factor
+    }
+
+    #[inline]
+    fn is_spherical(&self) -> bool {
+        true
     }
 }
 
@@ -99,12 +107,21 @@ impl Inertia<DVec3, SpatialRotation> for SymmetricTensor {
     }
 
     fn in_world(&self, rotation: &SpatialRotation) -> Self {
+        if self.is_spherical() {
+            return *self;
+        }
         let r = rotation.to_matrix();
         Self::from_matrix(r * self.to_matrix() * r.transpose())
     }
 
     fn scaled(&self, factor: f64) -> Self {
         Self { diagonal: self.diagonal * factor, off_diagonal: self.off_diagonal * factor }
+    }
+
+    #[inline]
+    fn is_spherical(&self) -> bool {
+        let d = self.diagonal;
+        d.x == d.y && d.y == d.z && self.off_diagonal == DVec3::ZERO
     }
 }
 
@@ -123,7 +140,7 @@ where
     I: Inertia<W, R>,
 {
     let turned = rotation.turned(midpoint_rate(rotation, inertia, inverse, angular_velocity, dt) * dt);
-    if R::INERTIA_IS_CONSTANT {
+    if R::INERTIA_IS_CONSTANT || inertia.is_spherical() {
         return (turned, angular_velocity);
     }
     let momentum = inertia.in_world(&rotation).apply(angular_velocity);
@@ -143,7 +160,7 @@ where
     R: Rotation<W>,
     I: Inertia<W, R>,
 {
-    if R::INERTIA_IS_CONSTANT {
+    if R::INERTIA_IS_CONSTANT || inertia.is_spherical() {
         return angular_velocity;
     }
     let momentum = inertia.in_world(&rotation).apply(angular_velocity);

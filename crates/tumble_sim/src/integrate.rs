@@ -140,7 +140,7 @@ pub fn update_positions<D: Geometry>(
         let mut x = position.0 + v * clock.part();
         let mut turned = angular_velocity.0;
         let mut rotation = orientation.0.turned(w * clock.part());
-        if !D::Rotation::INERTIA_IS_CONSTANT && inverse.0 != D::Inertia::ZERO {
+        if !inertia.0.is_spherical() && inverse.0 != D::Inertia::ZERO {
             (rotation, _) = D::turn_freely(orientation.0, &inertia.0, &inverse.0, w, clock.part());
             let momentum = inertia.0.in_world(&orientation.0).apply(angular_velocity.0);
             turned = inverse.0.in_world(&rotation).apply(momentum);

@@ -37,11 +37,13 @@ pub struct Colliders<D: Geometry> {
     list: Vec<Collider<D>>,
     /// Rank of the first part of each body, and one past the end.
     starts: Vec<u32>,
+    /// Largest extent of the parts of each body [m].
+    extents: Vec<f64>,
 }
 
 impl<D: Geometry> Default for Colliders<D> {
     fn default() -> Self {
-        Self { list: Vec::new(), starts: vec![0] }
+        Self { list: Vec::new(), starts: vec![0], extents: Vec::new() }
     }
 }
 
@@ -54,6 +56,11 @@ impl<D: Geometry> Colliders<D> {
     /// The parts of a body.
     pub fn of_body(&self, index: u32) -> &[Collider<D>] {
         &self.list[self.range(index)]
+    }
+
+    /// Largest distance of a part of the body from its centre of mass; parts without bounds count as points [m].
+    pub fn extent_of_body(&self, index: u32) -> f64 {
+        self.extents[index as usize]
     }
 
     /// Ranks of the parts of a body.
@@ -99,7 +106,7 @@ pub(super) fn may_touch<D: Geometry>(
 
 /// Rebuilds the table from the bodies and their parts.
 pub(crate) fn prepare_colliders<D: Geometry>(world: &mut World) {
-    let mut colliders = Colliders::<D> { list: Vec::new(), starts: Vec::new() };
+    let mut colliders = Colliders::<D> { list: Vec::new(), starts: Vec::new(), extents: Vec::new() };
     for (body, entry) in world.resource::<BodyTable>().entries().iter().enumerate() {
         colliders.starts.push(colliders.list.len() as u32);
         let origin = world.get::<PartFrame<D::Vector>>(entry.entity).map_or(D::Vector::ZERO, |frame| frame.0);
@@ -117,6 +124,8 @@ pub(crate) fn prepare_colliders<D: Geometry>(world: &mut World) {
                 groups: part.groups,
             });
         }
+        let parts = &colliders.list[colliders.starts[body] as usize..];
+        colliders.extents.push(parts.iter().map(|part| part.extent).fold(0.0, f64::max));
     }
     colliders.starts.push(colliders.list.len() as u32);
     world.insert_resource(colliders);

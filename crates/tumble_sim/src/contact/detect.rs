@@ -1,14 +1,15 @@
 //! Collision detection (L1): near pairs, then contact points, then what is remembered of them.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use bevy_ecs::prelude::*;
 use tumble_collision::{BroadPhase, PairChanges, TurningBox};
-use tumble_math::{Dim, Linear, Matrix, Pose};
+use tumble_math::{Dim, Linear, Matrix, Pose, Rotation};
+use tumble_solver::soft_step::PairColour;
 
 use super::colliders::may_touch;
 use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, IgnoredPairs, Materials, PairKey};
-use super::{ContactReuse, Touch, TouchPhase};
+use super::{ContactReuse, SoftModel, Touch, TouchPhase};
 use crate::body::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyIndex, BodyTable, LinearVelocity, Orientation, Position,
 };
@@ -36,6 +37,8 @@ pub struct BodyMotion<D: Geometry> {
     pub angular_acceleration: D::Angular,
     /// Farthest that a point of the body can travel in a step, within the speculative limit [m].
     pub reach: f64,
+    /// Pose for which its boxes were made, and the reach that they have: they hold while the body stays within [`SLACK`] of it [m].
+    boxed: (Pose<D>, f64),
 }
 
 impl<D: Geometry> Default for BodyMotion<D> {
@@ -48,6 +51,7 @@ impl<D: Geometry> Default for BodyMotion<D> {
             acceleration: D::Vector::ZERO,
             angular_acceleration: D::Angular::ZERO,
             reach: 0.0,
+            boxed: (Pose::default(), f64::NEG_INFINITY),
         }
     }
 }
@@ -76,9 +80,18 @@ pub struct Detection<D: Geometry> {
     pub(super) boxes: Vec<Option<D::OrientedBox>>,
     /// The same with the margins of fat volumes: two parts are a pair while both overlap.
     fat_boxes: Vec<Option<D::OrientedBox>>,
-    pairs: HashMap<PairKey, Entity>,
+    /// All near pairs, in the order of their parts.
+    pairs: Vec<NearPair>,
     ranks: Ranks,
     pub(super) touches: Vec<Touch>,
+}
+
+/// A near pair and its entity.
+#[derive(Clone, Copy, Debug)]
+struct NearPair {
+    /// Ranks of the two parts.
+    parts: (u32, u32),
+    entity: Entity,
 }
 
 /// Whether the ranks of parts in the broad phase are those of the tables.
@@ -100,7 +113,7 @@ impl<D: Geometry> Default for Detection<D> {
             motions: Vec::new(),
             boxes: Vec::new(),
             fat_boxes: Vec::new(),
-            pairs: HashMap::new(),
+            pairs: Vec::new(),
             ranks: Ranks::Forgotten,
             touches: Vec::new(),
         }
@@ -125,10 +138,14 @@ impl<D: Geometry> Detection<D> {
     }
 }
 
+/// How far a body may move, and a point of it by turning, before its boxes are made anew, in length scales.
+const SLACK: f64 = 0.005;
 /// Margin of fat bounds beyond the travel that they foresee, in length scales: larger finds pairs anew less often.
 const FAT_MARGIN: f64 = 0.05;
 /// Steps of steady motion that fat bounds allow for: more finds pairs anew less often [1].
 const STEPS_AHEAD: f64 = 2.0;
+/// The same where bounds reach along the motion only, and stay slim [1].
+const STEPS_AHEAD_ALONG: f64 = 4.0;
 /// Gap within which contact points are made even for bodies at rest, in length scales.
 const REST_MARGIN: f64 = 0.01;
 
@@ -170,11 +187,12 @@ pub fn find_pairs<D: Geometry>(
     detection.fat_boxes.resize(colliders.as_slice().len(), None);
     let fat_margin = FAT_MARGIN * settings.length_scale;
     let limit = settings.speculative_limit();
+    let slim = settings.contact == ContactModel::SoftStep;
     for (index, position, orientation, velocity, spin, acceleration, angular_acceleration) in &bodies {
         let motion = &mut detection.motions[index.0 as usize];
         let pose = Pose { position: position.0, rotation: orientation.0 };
         let parts = colliders.range(index.0);
-        let extent = colliders.as_slice()[parts.clone()].iter().map(|part| part.extent).fold(0.0, f64::max);
+        let extent = colliders.extent_of_body(index.0);
         let turning = spin.0.length() * extent;
         let speed = velocity.0.length() + turning;
         let travel = (speed + acceleration.0.length() * clock.dt) * clock.dt;
@@ -182,7 +200,10 @@ pub fn find_pairs<D: Geometry>(
             notices.moved_too_far(index.0, travel, clock.step);
         }
         let reach = travel.min(limit) + 0.5 * REST_MARGIN * settings.length_scale;
-        let unmoved = detection.ranks == Ranks::Known && motion.pose == pose && reach <= motion.reach;
+        let known = detection.ranks == Ranks::Known;
+        let unmoved = known && motion.pose == pose && reach <= motion.reach;
+        let (boxed, boxed_reach) = motion.boxed;
+        let near = known && reach <= boxed_reach && is_near(&pose, &boxed, extent, SLACK * settings.length_scale);
         *motion = BodyMotion {
             pose,
             axes: D::matrix(&pose.rotation),
@@ -191,17 +212,29 @@ pub fn find_pairs<D: Geometry>(
             acceleration: acceleration.0,
             angular_acceleration: angular_acceleration.0,
             reach: if unmoved { motion.reach } else { reach },
+            boxed: if near { motion.boxed } else { (pose, reach) },
         };
-        if unmoved {
+        if near {
             continue;
         }
         // Fat bounds reach ahead rather than all round: bodies that fall side by side are no pairs.
-        let ahead = velocity.0 * (STEPS_AHEAD * clock.dt).min(STEPS_AHEAD * limit / speed);
+        let steps = if slim { STEPS_AHEAD_ALONG } else { STEPS_AHEAD };
+        let along = |steps: f64| velocity.0 * (steps * clock.dt).min(steps * limit / speed);
+        let (ahead, step) = (along(steps), if slim { along(1.0) } else { D::Vector::ZERO });
+        // Bounds reach as far as a point can travel in the step: all round, as an impact may turn it anywhere, or along the motion and as far
+        // as turning and forces bend it. Centre and turn may each use up the slack besides.
+        let reach = 2.0 * SLACK * settings.length_scale
+            + if slim {
+                let bent = (turning + acceleration.0.length() * clock.dt) * clock.dt;
+                bent.min(limit) + 0.5 * REST_MARGIN * settings.length_scale
+            } else {
+                reach
+            };
         for part in parts {
             let shape = &colliders.as_slice()[part].shape;
-            let bounds = D::oriented_box(shape, &pose, reach);
+            let bounds = D::oriented_box(shape, &pose, reach).map(|bounds| bounds.swept(step));
             detection.boxes[part] = bounds;
-            let volume = D::volume(shape, &pose).grown(reach);
+            let volume = D::volume(shape, &pose).swept(step).grown(reach);
             let margin = fat_margin + (turning * clock.dt).min(limit);
             let renewed = detection.broad.update_moving(part as u32, volume, ahead, margin);
             let fat = &mut detection.fat_boxes[part];
@@ -222,7 +255,14 @@ pub fn find_pairs<D: Geometry>(
     detection.broad.update_pairs(filter, &mut detection.changes);
 }
 
-/// Despawns the entities of pairs that ended and spawns those of pairs that began, in order.
+/// Whether a body is where it was, within a distance for its centre and for the farthest of its points [m].
+fn is_near<D: Geometry>(now: &Pose<D>, then: &Pose<D>, extent: f64, distance: f64) -> bool {
+    let moved = now.position - then.position;
+    let straying = now.rotation.strayed(&D::Rotation::default(), &then.rotation);
+    moved.dot(moved) <= distance * distance && extent * extent * straying <= distance * distance
+}
+
+/// Gives the entities of pairs that ended to pairs that began, in order; spawns what is missing and despawns what is left.
 pub fn sync_pairs<D: Geometry>(world: &mut World) {
     let detection = world.resource_mut::<Detection<D>>().into_inner();
     let renewed = detection.ranks == Ranks::Renewed;
@@ -231,41 +271,49 @@ pub fn sync_pairs<D: Geometry>(world: &mut World) {
     }
     let changes = std::mem::take(&mut detection.changes);
     let mut pairs = std::mem::take(&mut detection.pairs);
-    let table = world.resource::<BodyTable>();
-    let colliders = world.resource::<Colliders<D>>();
+    let (table, colliders) = (world.resource::<BodyTable>(), world.resource::<Colliders<D>>().as_slice());
     let materials = world.resource::<Materials>();
-    let pair_of = |&(a, b): &(u32, u32)| {
-        new_pair(&colliders.as_slice()[a as usize], &colliders.as_slice()[b as usize], [a, b], table, materials)
-    };
 
-    let added: Vec<ContactPair> = changes.added.iter().map(pair_of).collect();
-    let removed: Vec<PairKey> = if renewed {
-        let near: HashSet<PairKey> = added.iter().map(|pair| pair.key).collect();
-        let mut apart: Vec<PairKey> = pairs.keys().copied().filter(|key| !near.contains(key)).collect();
-        apart.sort();
-        apart
-    } else {
-        changes.removed.iter().map(|pair| pair_of(pair).key).collect()
-    };
-    let time = world.resource::<Clock>().time_after_part();
+    let mut removed = changes.removed.iter().peekable();
+    let mut added = changes.added.iter().peekable();
     let mut ended = Vec::new();
-    for key in removed {
-        if let Some(entity) = pairs.remove(&key) {
-            end_pair(world, entity, time, &mut ended);
+    pairs.retain(|pair| {
+        let ends = if renewed {
+            // `added` holds all pairs there are.
+            while added.next_if(|other| **other < pair.parts).is_some() {}
+            added.peek() != Some(&&pair.parts)
+        } else {
+            removed.next_if(|other| **other == pair.parts).is_some()
+        };
+        if ends {
+            ended.push(pair.entity);
         }
-    }
+        !ends
+    });
+    let fresh = |parts: &&(u32, u32)| !renewed || pairs.binary_search_by_key(*parts, |pair| pair.parts).is_err();
+    let began: Vec<ContactPair> = (changes.added.iter().filter(fresh))
+        .map(|&(a, b)| new_pair(&colliders[a as usize], &colliders[b as usize], [a, b], table, materials))
+        .collect();
+
+    let mut touches = Vec::new();
+    end_touches(world, &ended, world.resource::<Clock>().time_after_part(), &mut touches);
     let reuse = Reuse::of(world.resource::<Settings<D>>().contact);
-    spawn_pairs::<D>(world, added, reuse, &mut pairs);
+    if reuse == Reuse::Yes {
+        release_colours::<D>(world, &ended);
+    }
+    place_pairs::<D>(world, &ended, &began, reuse, &mut pairs);
+    // Two runs in order, which a stable sort only merges.
+    pairs.sort_by_key(|pair| pair.parts);
     let mut detection = world.resource_mut::<Detection<D>>();
     detection.pairs = pairs;
-    detection.touches.append(&mut ended);
+    detection.touches.append(&mut touches);
     detection.changes = changes;
 }
 
 /// Makes contact entities agree with the tables after bodies or parts were added or removed: pairs of known parts get their new
 /// ranks and keep their memory; pairs of parts that are gone end.
 pub(crate) fn renumber_pairs<D: Geometry>(world: &mut World) {
-    let mut pairs = std::mem::take(&mut world.resource_mut::<Detection<D>>().pairs);
+    let pairs = std::mem::take(&mut world.resource_mut::<Detection<D>>().pairs);
     let colliders = world.resource::<Colliders<D>>();
     let (table, materials) = (world.resource::<BodyTable>(), world.resource::<Materials>());
     let ranks: HashMap<(u64, u32), u32> = colliders
@@ -276,17 +324,18 @@ pub(crate) fn renumber_pairs<D: Geometry>(world: &mut World) {
         .collect();
     let mut renumbered = Vec::new();
     let mut gone = Vec::new();
-    for (key, entity) in &pairs {
+    for NearPair { entity, .. } in pairs {
+        let Some(key) = world.get::<ContactPair>(entity).map(|pair| pair.key) else { continue };
         match (ranks.get(&(key.a.0, key.part_a)), ranks.get(&(key.b.0, key.part_b))) {
             (Some(&a), Some(&b)) => {
                 let list = colliders.as_slice();
                 let pair = new_pair(&list[a as usize], &list[b as usize], [a, b], table, materials);
-                renumbered.push((*entity, pair));
+                renumbered.push((entity, pair));
             }
-            _ => gone.push((*key, *entity)),
+            _ => gone.push(entity),
         }
     }
-    gone.sort();
+    let mut pairs = Vec::new();
     for (entity, pair) in renumbered {
         if let Some(mut known) = world.get_mut::<ContactPair>(entity) {
             *known = ContactPair { touching: known.touching, ..pair };
@@ -295,38 +344,61 @@ pub(crate) fn renumber_pairs<D: Geometry>(world: &mut World) {
         if let Some(mut reuse) = world.get_mut::<ContactReuse<D>>(entity) {
             *reuse = ContactReuse::default();
         }
+        pairs.push(NearPair { parts: pair.colliders.into(), entity });
     }
-    let time = world.resource::<Clock>().time();
-    let mut ended = Vec::new();
-    for (key, entity) in gone {
-        pairs.remove(&key);
-        end_pair(world, entity, time, &mut ended);
+    pairs.sort_unstable_by_key(|pair| pair.parts);
+    let mut touches = Vec::new();
+    end_touches(world, &gone, world.resource::<Clock>().time(), &mut touches);
+    for entity in gone {
+        world.despawn(entity);
     }
+    world.resource_mut::<SoftModel<D>>().colours().forget();
     let mut detection = world.resource_mut::<Detection<D>>();
     detection.pairs = pairs;
-    detection.touches.append(&mut ended);
+    detection.touches.append(&mut touches);
     detection.forget_ranks();
 }
 
-fn end_pair(world: &mut World, entity: Entity, time: f64, ended: &mut Vec<Touch>) {
-    if let Some(pair) = world.get::<ContactPair>(entity)
-        && pair.touching
-    {
-        ended.push(Touch { phase: TouchPhase::Ended, pair: pair.key, response: pair.response, time });
+/// Tells of the pairs that touched until now.
+fn end_touches(world: &World, ended: &[Entity], time: f64, touches: &mut Vec<Touch>) {
+    for pair in ended.iter().filter_map(|entity| world.get::<ContactPair>(*entity)).filter(|pair| pair.touching) {
+        touches.push(Touch { phase: TouchPhase::Ended, pair: pair.key, response: pair.response, time });
     }
-    world.despawn(entity);
 }
 
-fn spawn_pairs<D: Geometry>(
+/// Gives the colours of ended pairs back.
+fn release_colours<D: Geometry>(world: &mut World, ended: &[Entity]) {
+    let mut released = Vec::with_capacity(ended.len());
+    released.extend(ended.iter().filter_map(|entity| world.get::<ContactPair>(*entity)).copied());
+    let mut soft = world.resource_mut::<SoftModel<D>>();
+    for pair in released {
+        soft.colours().release(pair.bodies, pair.colour);
+    }
+}
+
+/// Finds an entity for every pair that began: one whose pair ended, as long as there are any, and otherwise a new one.
+fn place_pairs<D: Geometry>(
     world: &mut World,
-    added: Vec<ContactPair>,
+    ended: &[Entity],
+    began: &[ContactPair],
     reuse: Reuse,
-    pairs: &mut HashMap<PairKey, Entity>,
+    pairs: &mut Vec<NearPair>,
 ) {
-    let fresh: Vec<ContactPair> = added.into_iter().filter(|pair| !pairs.contains_key(&pair.key)).collect();
-    let keys: Vec<PairKey> = fresh.iter().map(|pair| pair.key).collect();
-    let bundles = fresh
-        .into_iter()
+    let mut began = began.iter().copied();
+    let near = |pair: &ContactPair, entity| NearPair { parts: pair.colliders.into(), entity };
+    for entity in ended {
+        let contact = world.entity_mut(*entity);
+        // What somebody has put on it must not pass to another pair.
+        let plain = contact.archetype().components().len() == reuse.components();
+        if plain && let Some(pair) = began.next() {
+            pairs.push(near(&pair, *entity));
+            renew::<D>(contact, pair);
+        } else {
+            contact.despawn();
+        }
+    }
+    let fresh: Vec<ContactPair> = began.collect();
+    let bundles = (fresh.iter().copied())
         .map(|pair| (pair, ContactManifold::<D>(D::Manifold::default()), ContactMemory::<D>(D::PerPoint::default())));
     let entities: Vec<Entity> = match reuse {
         Reuse::No => world.spawn_batch(bundles).collect(),
@@ -336,7 +408,23 @@ fn spawn_pairs<D: Geometry>(
             world.spawn_batch(bundles).collect()
         }
     };
-    pairs.extend(keys.into_iter().zip(entities));
+    pairs.extend(fresh.iter().zip(entities).map(|(pair, entity)| near(pair, entity)));
+}
+
+/// Makes another pair's contact of an entity.
+fn renew<D: Geometry>(mut contact: EntityWorldMut<'_>, pair: ContactPair) {
+    if let Some(mut known) = contact.get_mut::<ContactPair>() {
+        *known = pair;
+    }
+    if let Some(mut manifold) = contact.get_mut::<ContactManifold<D>>() {
+        manifold.0 = D::Manifold::default();
+    }
+    if let Some(mut memory) = contact.get_mut::<ContactMemory<D>>() {
+        memory.0 = D::PerPoint::default();
+    }
+    if let Some(mut reuse) = contact.get_mut::<ContactReuse<D>>() {
+        *reuse = ContactReuse::default();
+    }
 }
 
 /// Whether contact points are reused from step to step.
@@ -349,6 +437,14 @@ enum Reuse {
 impl Reuse {
     fn of(model: ContactModel) -> Self {
         if model == ContactModel::SoftStep { Self::Yes } else { Self::No }
+    }
+
+    /// Number of components of a contact.
+    fn components(self) -> usize {
+        match self {
+            Self::No => 3,
+            Self::Yes => 4,
+        }
     }
 }
 
@@ -367,5 +463,6 @@ fn new_pair<D: Geometry>(
         surface: materials.surface(a.material, b.material),
         response: if sensor { Response::Sensor } else { Response::Solid },
         touching: false,
+        colour: PairColour::NONE,
     }
 }

@@ -3,6 +3,7 @@
 use bevy_ecs::prelude::*;
 use tumble_collision::FeatureId;
 use tumble_math::Linear;
+use tumble_solver::soft_step::PairColour;
 use tumble_solver::{Slip, Surface};
 
 use crate::body::BodyId;
@@ -37,6 +38,8 @@ pub struct ContactPair {
     pub response: Response,
     /// Whether some point touches.
     pub touching: bool,
+    /// When soft steps solve the pair.
+    pub(crate) colour: PairColour,
 }
 
 /// Where the two parts touch or nearly do.

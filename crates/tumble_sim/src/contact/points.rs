@@ -16,7 +16,7 @@ use crate::fault::Fault;
 use crate::geometry::{ContactQuery, Geometry, Posed};
 use crate::simulation::Beginning;
 use crate::threads::{PAIRS_OF_A_TASK, Threads};
-use crate::{Clock, ContactModel, Settings};
+use crate::{Clock, Settings};
 
 /// Gap up to which a touching point goes on touching, in slops: a body that turns about its contact point lifts it by
 /// ½ r (ω Δt)² in each step, since steps run along tangents.
@@ -48,7 +48,6 @@ pub fn find_contacts<D: Geometry>(
         touch_tolerance,
         keep_tolerance: touch_tolerance.max(KEEP_TOLERANCE * settings.slop()),
         reuse_tolerance: REUSE_TOLERANCE * settings.length_scale,
-        given: if settings.contact == ContactModel::SoftStep { Given::Passes } else { Given::Stays },
         begins: clock.time(),
         time: if *beginning == Beginning::Yes { clock.time() } else { clock.time_after_part() },
         touches,
@@ -86,7 +85,6 @@ struct Look<'a, D: Geometry> {
     touch_tolerance: f64,
     keep_tolerance: f64,
     reuse_tolerance: f64,
-    given: Given,
     /// The step's start, and the time to which the contacts belong [s].
     begins: f64,
     time: f64,
@@ -115,13 +113,7 @@ impl<D: Geometry> Look<'_, D> {
         let margin = bodies[0].reach + bodies[1].reach;
         match reuse {
             Some(reuse) if reuse.holds(bodies, margin, self.reuse_tolerance) => {
-                for (point, memory) in D::points(manifold).iter().zip(memory.as_mut()) {
-                    memory.separation_before = Some(point.separation);
-                }
                 reuse.carry(manifold, bodies);
-                let normal = D::normal(manifold);
-                let count = D::points(manifold).len();
-                memory.as_mut()[..count].iter_mut().for_each(|memory| memory.take_pending(normal, self.given));
             }
             Some(reuse) => {
                 // Farther, by what a step may reach farther and by what bodies may come nearer unnoticed.
@@ -129,12 +121,12 @@ impl<D: Geometry> Look<'_, D> {
                 let found = self.find(pair, manifold, margin + 2.0 * self.reuse_tolerance);
                 let extent = |collider: u32| self.colliders[collider as usize].extent;
                 reuse.remember(&found, bodies, extent(pair.colliders[0]).max(extent(pair.colliders[1])), margin);
-                remember::<D>(manifold, &found, memory, self.given);
+                remember::<D>(manifold, &found, memory);
                 *manifold = found;
             }
             None => {
                 let found = self.find(pair, manifold, margin);
-                remember::<D>(manifold, &found, memory, self.given);
+                remember::<D>(manifold, &found, memory);
                 *manifold = found;
             }
         }
@@ -178,24 +170,18 @@ impl<D: Geometry> Look<'_, D> {
     }
 }
 
-/// What becomes of the impulses that a point was given before this detection.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Given {
-    /// They belong to the step: more are added.
-    Stays,
-    /// They belong to the step before: every step has one detection.
-    Passes,
-}
-
 /// Carries over what is remembered of the points that are found again.
-fn remember<D: Geometry>(
-    before: &D::Manifold,
-    found: &D::Manifold,
-    memory: &mut D::PerPoint<PointMemory<D::Vector>>,
-    given: Given,
-) {
-    let old = *memory;
+fn remember<D: Geometry>(before: &D::Manifold, found: &D::Manifold, memory: &mut D::PerPoint<PointMemory<D::Vector>>) {
     let known = D::points(before);
+    let same = known.iter().map(|point| point.feature).eq(D::points(found).iter().map(|point| point.feature));
+    if same {
+        for (memory, point) in memory.as_mut().iter_mut().zip(known) {
+            memory.separation_before = Some(point.separation);
+            memory.settle(D::normal(found));
+        }
+        return;
+    }
+    let old = *memory;
     for (new, point) in memory.as_mut().iter_mut().zip(D::points(found)) {
         let place = known.iter().position(|candidate| candidate.feature == point.feature);
         *new = match place {
@@ -203,15 +189,14 @@ fn remember<D: Geometry>(
             None => PointMemory { feature: point.feature, ..PointMemory::default() },
         };
         new.feature = point.feature;
-        new.take_pending(D::normal(found), given);
+        new.settle(D::normal(found));
     }
 }
 
 impl<V: Linear> PointMemory<V> {
-    /// The step is over: what was pending has been given.
-    fn take_pending(&mut self, normal: V, given: Given) {
+    /// What was pending has been given.
+    fn settle(&mut self, normal: V) {
         self.held_back = self.pending.dot(normal) > 0.0;
-        let pending = std::mem::replace(&mut self.pending, V::ZERO);
-        self.given = if given == Given::Passes { pending } else { self.given + pending };
+        self.given += std::mem::replace(&mut self.pending, V::ZERO);
     }
 }

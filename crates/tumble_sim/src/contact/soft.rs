@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Inertia, Linear, Matrix};
-use tumble_solver::soft_step::{SoftOutcome, SoftPair, SoftPoint, SoftStep, Width};
+use tumble_solver::soft_step::{Colours, PairColour, SoftOutcome, SoftPair, SoftPoint, SoftStep, Width};
 use tumble_solver::{ContactRow, SolverBody};
 
 use super::problem::{BodyQuery, ContactProblem, ContactReport, RowSource};
@@ -27,13 +27,17 @@ use crate::{Clock, Settings};
 #[derive(Resource, Debug)]
 pub struct SoftModel<D: Geometry> {
     model: SoftStep<D>,
+    /// Pairs that act, or begin to: in the order of their rows.
+    acting: Vec<Acting>,
+    /// Those of them that begin to act, and those that are solved one by one, in the order of their parts.
+    beginning: Vec<u32>,
     /// Whether a contact pushed a body in this step, by rank.
     pushed: Vec<AtomicBool>,
 }
 
 impl<D: Geometry> Default for SoftModel<D> {
     fn default() -> Self {
-        Self { model: SoftStep::default(), pushed: Vec::new() }
+        Self { model: SoftStep::default(), acting: Vec::new(), beginning: Vec::new(), pushed: Vec::new() }
     }
 }
 
@@ -42,6 +46,22 @@ impl<D: Geometry> SoftModel<D> {
     pub fn set_width(&mut self, width: Width) {
         self.model.width = width;
     }
+
+    /// The colours of pairs.
+    pub(super) fn colours(&mut self) -> &mut Colours {
+        self.model.colours()
+    }
+}
+
+/// A pair that acts.
+#[derive(Clone, Copy, Debug)]
+struct Acting {
+    /// Its place among all pairs.
+    row: u32,
+    parts: [u32; 2],
+    bodies: [u32; 2],
+    points: u8,
+    colour: PairColour,
 }
 
 /// Slower approaches than gravity makes in this many steps do not rebound: they are rest [1].
@@ -52,7 +72,7 @@ type SoftPairs<'w, 's, D> = Query<
     's,
     (
         Entity,
-        &'static ContactPair,
+        &'static mut ContactPair,
         &'static ContactManifold<D>,
         &'static mut ContactMemory<D>,
         &'static mut ContactReuse<D>,
@@ -101,7 +121,7 @@ pub fn take_soft_steps<D: Geometry>(
     }
     let (dt, team) = (clock.part(), threads.team());
     let (how, substep) = (&settings.soft_step, dt / f64::from(settings.soft_step.substeps));
-    let SoftModel { model, pushed } = &mut *soft;
+    let SoftModel { model, acting, beginning, pushed } = &mut *soft;
     let problem = &mut *problem;
     problem.begin_bodies(table.entries().len());
     for (index, velocity, spin, a, alpha, mass, inertia, orientation, _) in &bodies {
@@ -117,18 +137,29 @@ pub fn take_soft_steps<D: Geometry>(
         model.accelerate(index.0, a.0, alpha.0, substep);
     }
 
-    let mut acts = false;
-    for (_, pairs, manifolds, ..) in pairs.contiguous_iter().expect(IN_TABLES) {
-        for (pair, manifold) in pairs.iter().zip(manifolds) {
+    acting.clear();
+    let mut row = 0;
+    for (_, pairs, manifolds, ..) in pairs.contiguous_iter_mut().expect(IN_TABLES) {
+        let (pairs, _) = ContiguousMut::split(pairs);
+        for (pair, manifold) in pairs.iter_mut().zip(manifolds) {
             if pushes(pair, manifold) {
-                let [a, b] = pair.bodies;
-                model.announce(a, b, D::points(&manifold.0).len());
-                acts = true;
-            } else {
-                model.announce_none();
+                let ContactPair { colliders, bodies, colour, .. } = *pair;
+                acting.push(Acting {
+                    row,
+                    parts: colliders,
+                    bodies,
+                    points: D::points(&manifold.0).len() as u8,
+                    colour,
+                });
+            } else if model.colours().know(pair.colour) {
+                model.colours().release(pair.bodies, pair.colour);
+                pair.colour = PairColour::NONE;
             }
+            row += 1;
         }
     }
+    colour_pairs(model, acting, beginning, row as usize);
+    let acts = !acting.is_empty();
     model.lay_out(team);
     model.fill(team, |places| {
         let tables = pairs.contiguous_iter().expect(IN_TABLES);
@@ -175,23 +206,28 @@ pub fn take_soft_steps<D: Geometry>(
     let (solved, pushed) = (&*model, &*pushed);
     let mut first = 0;
     for (_, pairs, manifolds, memories, reuses) in pairs.contiguous_iter_mut().expect(IN_TABLES) {
+        let (pairs, _) = ContiguousMut::split(pairs);
         let (memories, _) = ContiguousMut::split(memories);
         let (reuses, _) = ContiguousMut::split(reuses);
-        let chunks = pairs.chunks(PAIRS_OF_A_TASK).zip(manifolds.chunks(PAIRS_OF_A_TASK));
+        let count = pairs.len();
+        let chunks = pairs.chunks_mut(PAIRS_OF_A_TASK).zip(manifolds.chunks(PAIRS_OF_A_TASK));
         let chunks = chunks.zip(memories.chunks_mut(PAIRS_OF_A_TASK)).zip(reuses.chunks_mut(PAIRS_OF_A_TASK));
         team.share(chunks.enumerate(), |(chunk, (((pairs, manifolds), memories), reuses))| {
-            let pairs = pairs.iter().zip(manifolds).zip(memories).zip(reuses);
+            let pairs = pairs.iter_mut().zip(manifolds).zip(memories).zip(reuses);
             for (k, (((pair, manifold), memory), reuse)) in pairs.enumerate() {
                 if !pushes(pair, manifold) {
                     continue;
                 }
-                let outcome = solved.outcome(first + chunk * PAIRS_OF_A_TASK + k);
+                let number = first + chunk * PAIRS_OF_A_TASK + k;
+                let outcome = solved.outcome(number);
+                pair.colour = solved.colour(number);
                 reuse.twist = outcome.twist();
-                let frame = D::contact_frame(D::normal(&manifold.0));
+                let normal = D::normal(&manifold.0);
+                let twist = Twisting::of(&outcome, manifold);
                 let mut touched = false;
-                for (k, memory) in memory.0.as_mut()[..D::points(&manifold.0).len()].iter_mut().enumerate() {
+                for ((k, point), memory) in D::points(&manifold.0).iter().enumerate().zip(memory.0.as_mut()) {
                     (memory.impulse, memory.slip) = (outcome.impulse(k), outcome.slip);
-                    memory.pending += frame.apply(outcome.total(k)) + twist_at(&outcome, manifold, k);
+                    memory.given = outcome.total_in_world(k, normal) + twist.at(point.point);
                     // It met the surface in this step, wherever the rest of the step took it.
                     memory.held = outcome.pushed(k);
                     touched |= memory.held;
@@ -203,7 +239,7 @@ pub fn take_soft_steps<D: Geometry>(
                 }
             }
         });
-        first += pairs.len();
+        first += count;
     }
     if books.is_some() {
         note_rows(problem, solved, &detection, &pairs, substep);
@@ -243,15 +279,56 @@ pub fn take_soft_steps<D: Geometry>(
     joints.collect_impulses();
 }
 
-/// What a twist of the pair does at a point, on b in world axes [N·s].
-fn twist_at<D: Geometry>(outcome: &SoftOutcome<D>, manifold: &ContactManifold<D>, point: usize) -> D::Vector {
-    if !outcome.twists() {
-        return D::Vector::ZERO;
+/// Gives a colour to every pair that begins to act, in the order of their parts, and announces all of them.
+fn colour_pairs<D: Geometry>(model: &mut SoftStep<D>, acting: &mut [Acting], beginning: &mut Vec<u32>, rows: usize) {
+    beginning.clear();
+    beginning.extend((0..acting.len() as u32).filter(|k| !model.colours().know(acting[*k as usize].colour)));
+    beginning.sort_unstable_by_key(|k| acting[*k as usize].parts);
+    for k in &*beginning {
+        let pair = &mut acting[*k as usize];
+        pair.colour = model.colours().choose(pair.bodies);
     }
-    let points = D::points(&manifold.0);
-    let mean = points.iter().fold(D::Vector::ZERO, |sum, point| sum + point.point) * (1.0 / points.len() as f64);
-    let squared = points.iter().map(|point| (point.point - mean).dot(point.point - mean)).sum();
-    outcome.twist_at(D::normal(&manifold.0), points[point].point - mean, squared)
+    model.expect(rows);
+    beginning.clear();
+    for (k, pair) in acting.iter().enumerate() {
+        if pair.colour.shares_bodies() {
+            beginning.push(k as u32);
+        } else {
+            model.announce(pair.row as usize, pair.points as usize, pair.colour);
+        }
+    }
+    beginning.sort_unstable_by_key(|k| acting[*k as usize].parts);
+    for pair in beginning.iter().map(|k| &acting[*k as usize]) {
+        model.announce(pair.row as usize, pair.points as usize, pair.colour);
+    }
+}
+
+/// What a twist of a pair does at its points.
+struct Twisting<'a, D: Geometry> {
+    outcome: &'a SoftOutcome<D>,
+    normal: D::Vector,
+    /// Mean of the points, and the sum of their squared distances from it.
+    mean: D::Vector,
+    squared: f64,
+}
+
+impl<'a, D: Geometry> Twisting<'a, D> {
+    #[inline]
+    fn of(outcome: &'a SoftOutcome<D>, manifold: &ContactManifold<D>) -> Self {
+        let (mut mean, mut squared) = (D::Vector::ZERO, 0.0);
+        if outcome.twists() {
+            let points = D::points(&manifold.0);
+            mean = points.iter().fold(mean, |sum, point| sum + point.point) * (1.0 / points.len() as f64);
+            squared = points.iter().map(|point| (point.point - mean).dot(point.point - mean)).sum();
+        }
+        Self { outcome, normal: D::normal(&manifold.0), mean, squared }
+    }
+
+    /// On b, in world axes [N·s].
+    #[inline]
+    fn at(&self, point: D::Vector) -> D::Vector {
+        self.outcome.twist_at(self.normal, point - self.mean, self.squared)
+    }
 }
 
 /// Notes every point that pushed or could have, for the books.
@@ -268,6 +345,7 @@ fn note_rows<D: Geometry>(
         }
         let frame = D::contact_frame(D::normal(&manifold.0));
         let outcome = solved.outcome(number);
+        let twist = Twisting::of(&outcome, manifold);
         for (k, (point, memory)) in D::points(&manifold.0).iter().zip(memory.0.as_ref()).enumerate() {
             if point.separation > 0.0 && !outcome.pushed(k) {
                 continue;
@@ -282,7 +360,7 @@ fn note_rows<D: Geometry>(
                 separation: point.separation,
                 allowance: point.separation.max(0.0) / substep,
                 surface: pair.surface,
-                impulse: outcome.total(k) + frame.apply_transposed(twist_at(&outcome, manifold, k)),
+                impulse: outcome.total(k) + frame.apply_transposed(twist.at(point.point)),
                 slip: outcome.slip,
             });
             problem.sources.push(RowSource {

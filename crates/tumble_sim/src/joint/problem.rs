@@ -120,13 +120,18 @@ impl<D: Geometry> JointProblem<D> {
         poses: impl Iterator<Item = (u32, Pose<D>)>,
         bodies: &[SolverBody<D>],
     ) {
+        self.rows.clear();
+        self.held.clear();
+        self.first_rows.clear();
+        if table.entries().is_empty() {
+            self.first_rows.push(0);
+            return;
+        }
         self.poses.clear();
         self.poses.resize(bodies.len(), Pose::default());
         for (rank, pose) in poses {
             self.poses[rank as usize] = pose;
         }
-        self.rows.clear();
-        self.first_rows.clear();
         for entry in table.entries() {
             self.first_rows.push(self.rows.len() as u32);
             push_rows(entry, &self.poses, bodies, &mut self.rows);
@@ -136,7 +141,6 @@ impl<D: Geometry> JointProblem<D> {
         let mut ranks: Vec<u32> = table.entries().iter().flat_map(|entry| entry.bodies).collect();
         ranks.sort_unstable();
         ranks.dedup();
-        self.held.clear();
         self.held.extend(ranks.into_iter().map(|rank| Held::of(rank, &bodies[rank as usize])));
     }
 

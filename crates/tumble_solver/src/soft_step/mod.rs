@@ -41,13 +41,14 @@ use tumble_team::Team;
 
 use crate::joint::Joints;
 use crate::{Ending, Report, SolverBody};
-use colours::{COLOURS, Colours};
+use colours::COLOURS;
 use kernel::{Softness, Sweep};
 use lanes::{Block, One, WIDTH};
 use pack::moves;
-use plan::{Class, MEMBERS, NOBODY, Place, ROOM, Share};
+use plan::{Class, Colour, MEMBERS, NOBODY, Place, ROOM, Share};
 use run::{Held, Member, Shared};
 
+pub use colours::{Colours, PairColour};
 pub use dim::SoftDim;
 pub use pack::{SoftOutcome, SoftPair, SoftPoint};
 
@@ -85,6 +86,8 @@ pub enum Width {
 /// Slower than this many times what gravity adds in a substep, a point does not slide yet [1]: so much slips before its friction is known.
 const SLOW_SLIP: f64 = 1.0;
 
+/// So few packs are sooner done lane by lane: most of their lanes have no pair [1].
+const FEW_PACKS: usize = 1;
 /// Fewer packs than this for each thread are not worth waking it [1].
 const PACKS_FOR_A_THREAD: usize = 32;
 
@@ -102,8 +105,6 @@ pub struct SoftStep<D: SoftDim> {
     starts: Vec<Block>,
     /// Inverse masses and inertias: `MASS_BLOCKS` blocks for each body.
     masses: Vec<Block>,
-    /// Which bodies impulses move.
-    moving: Vec<bool>,
     colours: Colours,
     places: Vec<Place>,
     counts: [[u32; COLOURS]; ROOM.len()],
@@ -112,8 +113,9 @@ pub struct SoftStep<D: SoftDim> {
     four: Class<D, 4>,
     /// How many threads share the packs.
     members: usize,
-    /// Colours that some pair has, in order.
-    used: Vec<usize>,
+    /// Colours that some pair has, as bits, and the place of each among them.
+    used: u64,
+    ranks: [u8; COLOURS],
     rebounds: bool,
     /// Bodies of joints, each once.
     jointed: Vec<u32>,
@@ -128,7 +130,6 @@ impl<D: SoftDim> Default for SoftStep<D> {
             gains: Vec::new(),
             starts: Vec::new(),
             masses: Vec::new(),
-            moving: Vec::new(),
             colours: Colours::default(),
             places: Vec::new(),
             counts: [[0; COLOURS]; ROOM.len()],
@@ -136,7 +137,8 @@ impl<D: SoftDim> Default for SoftStep<D> {
             two: Class::default(),
             four: Class::default(),
             members: 1,
-            used: Vec::new(),
+            used: 0,
+            ranks: [0; COLOURS],
             rebounds: false,
             jointed: Vec::new(),
         }
@@ -203,17 +205,15 @@ impl<D: SoftDim> SoftStep<D> {
             gain.set([0.0; 4]);
         }
         self.masses.resize_with(bodies.len() * D::MASS_BLOCKS, Block::default);
-        self.moving.clear();
         for (i, body) in bodies.iter().enumerate() {
             let motion = (body.velocity, body.angular_velocity);
             set::<D>(&self.motions, i as u32, motion);
             set::<D>(&self.starts, i as u32, motion);
             D::pack_masses(body.inverse_mass, body.inverse_inertia, &mut self.masses, i);
-            self.moving.push(moves(body));
         }
-        self.colours.begin(bodies.len());
-        self.places.clear();
+        self.colours.begin(bodies.iter().map(moves));
         self.counts = [[0; COLOURS]; ROOM.len()];
+        self.used = 0;
         self.rebounds = false;
     }
 
@@ -222,39 +222,51 @@ impl<D: SoftDim> SoftStep<D> {
         set::<D>(&self.gains, body, (acceleration * substep, angular * substep));
     }
 
-    /// Announces the next pair, before [`lay_out`](Self::lay_out): its bodies and the number of its points, one to four.
-    pub fn announce(&mut self, a: u32, b: u32, points: usize) {
-        let class = ROOM.iter().position(|room| points <= *room).expect("no manifold has more than four points");
-        let moving = [a, b].map(|body| self.moving[body as usize]);
-        let colour = self.colours.choose([a, b], moving);
-        self.counts[class][colour] += 1;
-        self.places.push(Place { colour: colour as u8, class: class as u8, ..Place::default() });
+    /// The colours of pairs.
+    pub fn colours(&mut self) -> &mut Colours {
+        &mut self.colours
     }
 
-    /// Announces a pair that has no points now: it takes a number and nothing else.
-    pub fn announce_none(&mut self) {
-        self.places.push(Place { member: NOBODY, ..Place::default() });
+    /// Tells how many pairs there are, of which none is announced yet.
+    pub fn expect(&mut self, pairs: usize) {
+        self.places.clear();
+        self.places.resize(pairs, Place { member: NOBODY, ..Place::default() });
+    }
+
+    /// Announces pair number `k` with a number of points, one to four, before [`lay_out`](Self::lay_out). Pairs whose colour says that they share
+    /// bodies are solved in the order of these calls.
+    pub fn announce(&mut self, k: usize, points: usize, colour: PairColour) {
+        let class = ROOM.iter().position(|room| points <= *room).expect("no manifold has more than four points");
+        let number = colour.number();
+        let pack = self.counts[class][number];
+        self.counts[class][number] += 1;
+        self.used |= 1 << number;
+        self.places[k] = Place { colour: number as u8, class: class as u8, lane: 0, member: 0, pack };
     }
 
     /// Finds the place of every announced pair, for a team that will share them.
     pub fn lay_out(&mut self, team: &Team) {
-        let packs = self.counts.iter().flatten().sum::<u32>() as usize / WIDTH;
-        self.members = team.size().min(packs / PACKS_FOR_A_THREAD).clamp(1, MEMBERS);
+        let Self { used, counts, ranks, .. } = self;
+        let colours = |class: usize| {
+            let counts = counts[class];
+            let in_use = (0..COLOURS).filter(|colour| *used >> colour & 1 == 1);
+            in_use.map(move |colour| Colour { number: colour, pairs: counts[colour] })
+        };
+        for (rank, colour) in colours(0).enumerate() {
+            ranks[colour.number] = rank as u8;
+        }
+        let pairs: u32 = (0..ROOM.len()).flat_map(colours).map(|colour| colour.pairs).sum();
+        self.members = team.size().min(pairs as usize / (WIDTH * PACKS_FOR_A_THREAD)).clamp(1, MEMBERS);
         let world = (self.motions.len() / D::BLOCKS) as u32 - 1;
-        self.one.lay_out(&self.counts[0], self.members, world);
-        self.two.lay_out(&self.counts[1], self.members, world);
-        self.four.lay_out(&self.counts[2], self.members, world);
-        self.used.clear();
-        self.used.extend((0..COLOURS).filter(|colour| self.counts.iter().any(|counts| counts[*colour] > 0)));
-        let mut next = [[0_u32; COLOURS]; ROOM.len()];
+        self.one.lay_out(colours(0), self.members, world);
+        self.two.lay_out(colours(1), self.members, world);
+        self.four.lay_out(colours(2), self.members, world);
         for place in self.places.iter_mut().filter(|place| place.member != NOBODY) {
-            let (class, colour) = (place.class as usize, place.colour as usize);
-            let (number, pairs) = (next[class][colour], self.counts[class][colour]);
-            next[class][colour] += 1;
-            (place.pack, place.lane, place.member) = match class {
-                0 => self.one.place(colour, number, pairs),
-                1 => self.two.place(colour, number, pairs),
-                _ => self.four.place(colour, number, pairs),
+            let at = self.ranks[place.colour as usize] as usize;
+            (place.pack, place.lane, place.member) = match place.class {
+                0 => self.one.place(at, place.pack),
+                1 => self.two.place(at, place.pack),
+                _ => self.four.place(at, place.pack),
             };
         }
     }
@@ -292,14 +304,14 @@ impl<D: SoftDim> SoftStep<D> {
         let h = dt / f64::from(settings.substeps);
         let frequency = settings.frequency.min(0.25 / h);
         self.list_jointed(&joints, bodies.len());
-        let Self { motions, shifts, gains, starts, masses, used, jointed, .. } = self;
+        let Self { motions, shifts, gains, starts, masses, jointed, .. } = self;
         let shared = Shared {
             motions,
             shifts,
             gains,
             starts,
             masses,
-            used,
+            colours: self.used.count_ones() as usize,
             rebounds: self.rebounds,
             joints: joints.is_some(),
             substeps: settings.substeps,
@@ -313,7 +325,9 @@ impl<D: SoftDim> SoftStep<D> {
             },
             changed: AtomicU32::new(0),
         };
-        let (members, width, blocks) = (self.members, self.width, shared.motions.len());
+        let few = self.one.len() + self.two.len() + self.four.len() <= FEW_PACKS;
+        let width = if few && matches!(self.width, Width::Widest) { Width::Plain } else { self.width };
+        let (members, blocks) = (self.members, shared.motions.len());
         let mut held = joints.map(|joints| Held { joints, jointed, bodies });
         let (mut one, mut two, mut four) = (self.one.shares(), self.two.shares(), self.four.shares());
         let shares = (0..members).map(|member| Member {
@@ -336,6 +350,11 @@ impl<D: SoftDim> SoftStep<D> {
     /// What they changed of its place [m] and turn [rad].
     pub fn displacement(&self, body: u32) -> Motion<D> {
         get::<D>(&self.shifts, body)
+    }
+
+    /// The colour of pair number `k`.
+    pub fn colour(&self, k: usize) -> PairColour {
+        self.colours.of(self.places[k].colour)
     }
 
     /// What the step did to pair number `k`.

@@ -50,7 +50,13 @@ impl<D: Dim> Default for SoftPoint<D> {
 /// What a step did to a pair.
 #[derive(Clone, Copy)]
 pub struct SoftOutcome<D: SoftDim> {
-    points: [PointOutcome; 4],
+    /// Impulses along the normal in the last substep, and one over their sum.
+    pushes: [f32; 4],
+    per_push: f32,
+    /// The same of the whole step.
+    totals: [f32; 4],
+    per_total: f32,
+    frame: Frame<D, f32>,
     tangents: Tangents<D, f32>,
     total_tangents: Tangents<D, f32>,
     twist: Twist<D, f32>,
@@ -59,51 +65,54 @@ pub struct SoftOutcome<D: SoftDim> {
     pub slip: Slip,
 }
 
-/// What a step did along the normal at a point [N·s].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct PointOutcome {
-    /// In the last substep.
-    impulse: f32,
-    /// In the whole step.
-    total: f32,
-}
-
-/// Part of one in a sum; nothing of nothing.
-fn part(one: f32, sum: f32) -> f32 {
-    if sum > 0.0 { one / sum } else { 0.0 }
+/// 1 over a sum of pushes; nothing of nothing.
+fn per(pushes: [f32; 4]) -> f32 {
+    let sum: f32 = pushes.iter().sum();
+    if sum > 0.0 { 1.0 / sum } else { 0.0 }
 }
 
 impl<D: SoftDim> SoftOutcome<D> {
     /// Impulse of the last substep at a point, in the contact frame: each has as much of the friction as it has of the push [N·s].
+    #[inline]
     pub fn impulse(&self, point: usize) -> D::Vector {
-        let sum = self.points.iter().map(|point| point.impulse).sum();
-        let push = self.points[point].impulse;
-        D::in_frame(push, D::Tangents::times(self.tangents, part(push, sum)))
+        let push = self.pushes[point];
+        D::in_frame(push, D::Tangents::times(self.tangents, push * self.per_push))
     }
 
     /// Impulse of the whole step at a point, in the contact frame, without what twisting adds [N·s].
     pub fn total(&self, point: usize) -> D::Vector {
-        let sum = self.points.iter().map(|point| point.total).sum();
-        let push = self.points[point].total;
-        D::in_frame(push, D::Tangents::times(self.total_tangents, part(push, sum)))
+        let push = self.totals[point];
+        D::in_frame(push, D::Tangents::times(self.total_tangents, push * self.per_total))
     }
 
-    /// Whether the points pushed in this step.
+    /// The same on b, in world axes [N·s].
+    #[inline]
+    pub fn total_in_world(&self, point: usize, normal: D::Vector) -> D::Vector {
+        let push = self.totals[point];
+        let tangents = D::Tangents::times(self.total_tangents, push * self.per_total);
+        normal * f64::from(push) + D::vector(D::of_tangents(D::axes(normal), self.frame, tangents))
+    }
+
+    /// Whether a point pushed in this step.
+    #[inline]
     pub fn pushed(&self, point: usize) -> bool {
-        self.points[point].total > 0.0
+        self.totals[point] > 0.0
     }
 
     /// Angular impulse about the normal in the last substep, for [`SoftPair::twist`]; 0 in the plane [N·m·s].
+    #[inline]
     pub fn twist(&self) -> f32 {
         D::twist(self.twist)
     }
 
     /// Whether the pair was turned about its normal.
+    #[inline]
     pub fn twists(&self) -> bool {
         D::twist(self.total_twist) != 0.0
     }
 
     /// Part of a point in that turn, in world axes: `arm` from the mean of the points, whose arms `squared` sum up to so much [N·s].
+    #[inline]
     pub fn twist_at(&self, normal: D::Vector, arm: D::Vector, squared: f64) -> D::Vector {
         if squared > 0.0 { D::twisted(normal, self.total_twist, arm) * (1.0 / squared) } else { D::Vector::ZERO }
     }
@@ -143,6 +152,8 @@ pub struct Pack<D: SoftDim, const N: usize> {
     /// What only the start of the step reads.
     pub restitution: Wide,
     pub rest_speed: Wide,
+    /// Lanes beyond have no pair.
+    pub lanes: usize,
 }
 
 /// One point of eight pairs.
@@ -225,6 +236,7 @@ impl<D: SoftDim, const N: usize> Pack<D, N> {
             total_twist: zero::<D::Twist>(),
             restitution: Wide::default(),
             rest_speed: Wide::default(),
+            lanes: 0,
         }
     }
 
@@ -232,6 +244,7 @@ impl<D: SoftDim, const N: usize> Pack<D, N> {
     pub fn fill(&mut self, lane: usize, pair: &SoftPair<'_, D>) {
         let (normal, surface) = (pair.normal, &pair.surface);
         (self.a[lane], self.b[lane]) = (pair.a, pair.b);
+        self.lanes = self.lanes.max(lane + 1);
         D::Axes::put(D::axes(normal), lane, &mut self.normal);
         D::Frame::put(D::frame(normal), lane, &mut self.frame);
         let (used, unused) = self.points.split_at_mut(pair.points.len());
@@ -272,6 +285,7 @@ impl<D: SoftDim, const N: usize> Pack<D, N> {
     /// Leaves a lane without a pair: `world` is a body that nothing moves.
     pub fn clear(&mut self, lane: usize, world: u32) {
         (self.a[lane], self.b[lane]) = (world, world);
+        self.lanes = self.lanes.min(lane);
         for point in &mut self.points {
             point.clear(lane);
         }
@@ -281,14 +295,19 @@ impl<D: SoftDim, const N: usize> Pack<D, N> {
     }
 
     /// What the step did to the pair in a lane.
+    #[inline]
     pub fn outcome(&self, lane: usize) -> SoftOutcome<D> {
         let sticks = self.friction.0[lane] >= self.static_friction.0[lane];
-        let mut points = [PointOutcome::default(); 4];
-        for (outcome, point) in points.iter_mut().zip(&self.points) {
-            (outcome.impulse, outcome.total) = (point.impulse.0[lane], point.total.0[lane]);
+        let (mut pushes, mut totals) = ([0.0; 4], [0.0; 4]);
+        for ((push, total), point) in pushes.iter_mut().zip(&mut totals).zip(&self.points) {
+            (*push, *total) = (point.impulse.0[lane], point.total.0[lane]);
         }
         SoftOutcome {
-            points,
+            pushes,
+            per_push: per(pushes),
+            totals,
+            per_total: per(totals),
+            frame: D::Frame::take(&self.frame, lane),
             tangents: D::Tangents::take(&self.tangents, lane),
             total_tangents: D::Tangents::take(&self.total_tangents, lane),
             twist: D::Twist::take(&self.twist, lane),

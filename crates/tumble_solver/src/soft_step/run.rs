@@ -10,7 +10,7 @@ use tumble_team::Barrier;
 use super::Width;
 use super::dim::SoftDim;
 use super::kernel::{self, BIASED, RELAXING, Sweep};
-use super::lanes::{All, Block, Lanes, Number, One, WIDTH, Wide};
+use super::lanes::{All, Block, Lanes, Number, One, Wide};
 use super::pack::Pack;
 use super::plan::Share;
 use crate::SolverBody;
@@ -28,8 +28,8 @@ pub struct Shared<'a> {
     pub starts: &'a [Block],
     /// Inverse masses and inertias.
     pub masses: &'a [Block],
-    /// Colours that some pair has, in order.
-    pub used: &'a [usize],
+    /// How many colours there are.
+    pub colours: usize,
     /// Whether some point rebounds.
     pub rebounds: bool,
     /// Whether there are joints: all wait for the member that holds them.
@@ -168,7 +168,7 @@ impl Way for LaneByLane {
         shared: &Shared<'_>,
         changed: &mut Wide,
     ) {
-        for lane in 0..WIDTH {
+        for lane in 0..pack.lanes {
             visit(One(lane), pass, pack, shared, changed);
         }
     }
@@ -211,7 +211,7 @@ fn substeps<D: SoftDim, W: Way>(way: W, mut member: Member<'_, D>, shared: &Shar
     let Shared { motions, shifts, gains, starts, .. } = shared;
     let blocks = member.blocks.clone();
     let mut changed = Wide::default();
-    packs(way, Pass::Prepare, &mut member, shared, &mut changed, |_| {});
+    packs(way, Pass::Prepare, &mut member, shared, &mut changed, || {});
     for _ in 0..shared.substeps {
         for k in blocks.clone() {
             way.add(&motions[k], &gains[k], 1.0);
@@ -258,7 +258,7 @@ fn colours<D: SoftDim, W: Way>(
     barrier: &Barrier,
     changed: &mut Wide,
 ) {
-    packs(way, pass, member, shared, changed, |_| barrier.wait());
+    packs(way, pass, member, shared, changed, || barrier.wait());
 }
 
 /// Passes over all packs of a member, colour by colour.
@@ -269,9 +269,9 @@ fn packs<D: SoftDim, W: Way>(
     member: &mut Member<'_, D>,
     shared: &Shared<'_>,
     changed: &mut Wide,
-    after_colour: impl Fn(usize),
+    after_colour: impl Fn(),
 ) {
-    for &colour in shared.used {
+    for colour in 0..shared.colours {
         for pack in member.four.of_colour(colour) {
             way.visit(pass, pack, shared, changed);
         }
@@ -281,7 +281,7 @@ fn packs<D: SoftDim, W: Way>(
         for pack in member.one.of_colour(colour) {
             way.visit(pass, pack, shared, changed);
         }
-        after_colour(colour);
+        after_colour();
     }
 }
 

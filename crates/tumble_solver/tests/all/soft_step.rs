@@ -48,8 +48,10 @@ fn step_shared<D: SoftDim>(problem: &Problem<D>, width: Width, team: &Team) -> (
     for (i, (a, alpha)) in problem.accelerations.iter().enumerate() {
         model.accelerate(i as u32, *a, *alpha, DT / f64::from(settings.substeps));
     }
-    for pair in &problem.pairs {
-        model.announce(pair.a, pair.b, pair.points.len());
+    model.expect(problem.pairs.len());
+    for (k, pair) in problem.pairs.iter().enumerate() {
+        let colour = model.colours().choose([pair.a, pair.b]);
+        model.announce(k, pair.points.len(), colour);
     }
     model.lay_out(team);
     model.fill(team, |places| {
@@ -301,7 +303,9 @@ fn a_box_at_rest_is_carried_by_its_weight() {
         let mut bodies = problem.bodies.clone();
         model.begin(&bodies);
         model.accelerate(0, problem.accelerations[0].0, 0.0, DT / 4.0);
-        model.announce(1, 0, 2);
+        model.expect(1);
+        let colour = model.colours().choose([1, 0]);
+        model.announce(0, 2, colour);
         let alone = Team::alone();
         model.lay_out(&alone);
         let points = &problem.pairs[0].points;
