@@ -9,8 +9,8 @@ use tumble_math::{Linear, Planar, Rotation, Vector};
 use tumble_sim::{
     Anchor, AppliedForce, BodyId, CentreOverride, Course, GravityScale, IgnoredPairs, ImpulseSettings, InertiaOverride,
     Joint, Keyframes, LinearDrag, LinearVelocity, Lock, LockedAxes, MassOverride, MaterialId, Orientation, Part,
-    PenaltySettings, Pinned, Position, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings,
-    StepError, VelocityLcpSettings,
+    PenaltySettings, Pinned, Position, QuadraticDrag, Response, Settings, Simulation, SleepSettings, Spring,
+    SpringDamperSettings, StepError, VelocityLcpSettings,
 };
 use tumble_solver::soft_step::SoftSettings;
 use tumble_solver::{Surface, velocity_lcp};
@@ -139,6 +139,13 @@ fn settings<D: SceneDim>(scene: &Scene<D>) -> Settings<D> {
         impulse: impulse_settings(&scene.models.impulse),
         velocity_lcp: velocity_settings(&scene.models.velocity_lcp),
         soft_step: soft_settings(&scene.models.soft_step, scene.length_scale),
+        sleep: scene.models.soft_step.sleep.as_ref().map(|entry| {
+            let default = SleepSettings::default();
+            SleepSettings {
+                speed: entry.speed.unwrap_or(default.speed * scene.length_scale),
+                after: entry.after.unwrap_or(default.after),
+            }
+        }),
         ..Settings::weightless()
     }
 }

@@ -15,12 +15,12 @@
 
 use bevy_ecs::prelude::{Entity, EntityRef, RelationshipTarget};
 use thiserror::Error;
-use tumble_math::{Linear, Planar, Rotation, Vector};
+use tumble_math::{Dim, Linear, Planar, Rotation, Vector};
 use tumble_sim::{
     Anchor, AppliedForce, BodyIndex, BodyTable, BodyView, CentreOverride, GravityScale, IgnoredPairs, ImpulseSettings,
     InertiaOverride, Joint, JointTable, Keyframes, LinearDrag, Lock, LockedAxes, MassOverride, MaterialId, Materials,
-    Parts, PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, Spring, SpringDamperSettings,
-    StepError,
+    Parts, PenaltySettings, Pinned, QuadraticDrag, Response, Settings, Simulation, SleepSettings, Spring,
+    SpringDamperSettings, StepError,
 };
 use tumble_solver::soft_step::SoftSettings;
 use tumble_solver::{Surface, velocity_lcp};
@@ -31,7 +31,7 @@ use crate::exact::before_shift;
 use crate::format::{
     AnchorEntry, Axes, Axis, BodyEntry, BodyKind, Drag, Expectation, ForceEntry, FrictionEntry, Groups, ImpulseEntry,
     Integrator, JointEntry, Keyframe, MaterialEntry, ModelEntries, PairEntry, PenaltyEntry, PenaltyLaw, RestitutionLaw,
-    Scene, SoftStepEntry, SpringEntry, VelocityLcpEntry, VelocitySolver,
+    Scene, SleepEntry, SoftStepEntry, SpringEntry, VelocityLcpEntry, VelocitySolver,
 };
 use crate::initial_overlaps;
 use crate::materials::{DEFAULT_MATERIAL, MaterialLibrary};
@@ -156,19 +156,24 @@ fn with_settings<D: SceneDim>(settings: &Settings<D>, origin: Option<&Scene<D>>)
                     velocity_lcp::Restitution::Newton => RestitutionLaw::Newton,
                 },
             },
-            soft_step: soft_entry(&settings.soft_step, settings.length_scale),
+            soft_step: soft_entry(settings),
         },
         ..blank
     })
 }
 
-fn soft_entry(settings: &SoftSettings, length_scale: f64) -> SoftStepEntry {
-    let default = SoftSettings::default();
+fn soft_entry<D: Dim>(settings: &Settings<D>) -> SoftStepEntry {
+    let (length_scale, sleep, settings) = (settings.length_scale, settings.sleep, &settings.soft_step);
+    let (default, default_sleep) = (SoftSettings::default(), SleepSettings::default());
     SoftStepEntry {
         substeps: (settings.substeps != default.substeps).then_some(settings.substeps),
         frequency: (settings.frequency != default.frequency).then_some(settings.frequency),
         damping_ratio: (settings.damping_ratio != default.damping_ratio).then_some(settings.damping_ratio),
         push_speed: (settings.push_speed != default.push_speed * length_scale).then_some(settings.push_speed),
+        sleep: sleep.map(|sleep| SleepEntry {
+            speed: (sleep.speed != default_sleep.speed * length_scale).then_some(sleep.speed),
+            after: (sleep.after != default_sleep.after).then_some(sleep.after),
+        }),
     }
 }
 

@@ -12,13 +12,14 @@ use crate::contact::PositionCorrections;
 use crate::fault::{Fault, Quantity};
 use crate::geometry::Geometry;
 use crate::ledger::Books;
+use crate::rest::Awake;
 use crate::schedule::StepSystems;
 
 type VectorOf<D> = <D as Dim>::Vector;
 type AngularOf<D> = <D as Dim>::Angular;
 
 /// Forgets the forces of the last step.
-pub fn clear_forces<D: Dim>(mut bodies: Query<(&mut Force<VectorOf<D>>, &mut Torque<AngularOf<D>>)>) {
+pub fn clear_forces<D: Dim>(mut bodies: Query<(&mut Force<VectorOf<D>>, &mut Torque<AngularOf<D>>), Awake>) {
     for (mut force, mut torque) in &mut bodies {
         force.bypass_change_detection().0 = VectorOf::<D>::ZERO;
         torque.bypass_change_detection().0 = AngularOf::<D>::ZERO;
@@ -27,16 +28,19 @@ pub fn clear_forces<D: Dim>(mut bodies: Query<(&mut Force<VectorOf<D>>, &mut Tor
 
 /// a = M⁻¹ f through the inverse-mass filter: pinned bodies and locked axes have inverse mass 0 (R6, R7).
 pub fn compute_accelerations<D: Dim<Vector: InDim>>(
-    mut bodies: Query<(
-        &BodyIndex,
-        &Force<VectorOf<D>>,
-        &Torque<AngularOf<D>>,
-        &InverseMass<VectorOf<D>>,
-        &InverseInertia<D::Inertia>,
-        &Orientation<D::Rotation>,
-        &mut Acceleration<VectorOf<D>>,
-        &mut AngularAcceleration<AngularOf<D>>,
-    )>,
+    mut bodies: Query<
+        (
+            &BodyIndex,
+            &Force<VectorOf<D>>,
+            &Torque<AngularOf<D>>,
+            &InverseMass<VectorOf<D>>,
+            &InverseInertia<D::Inertia>,
+            &Orientation<D::Rotation>,
+            &mut Acceleration<VectorOf<D>>,
+            &mut AngularAcceleration<AngularOf<D>>,
+        ),
+        Awake,
+    >,
     mut fault: ResMut<Fault>,
 ) {
     for (index, force, torque, inverse_mass, inverse_inertia, orientation, mut linear, mut angular) in &mut bodies {
@@ -56,13 +60,16 @@ pub fn compute_accelerations<D: Dim<Vector: InDim>>(
 /// v += a Δt.
 pub fn integrate_velocities<D: Dim>(
     clock: Res<Clock>,
-    mut bodies: Query<(
-        &BodyIndex,
-        &Acceleration<VectorOf<D>>,
-        &AngularAcceleration<AngularOf<D>>,
-        &mut LinearVelocity<VectorOf<D>>,
-        &mut AngularVelocity<AngularOf<D>>,
-    )>,
+    mut bodies: Query<
+        (
+            &BodyIndex,
+            &Acceleration<VectorOf<D>>,
+            &AngularAcceleration<AngularOf<D>>,
+            &mut LinearVelocity<VectorOf<D>>,
+            &mut AngularVelocity<AngularOf<D>>,
+        ),
+        Awake,
+    >,
     mut fault: ResMut<Fault>,
 ) {
     for (index, a, alpha, mut velocity, mut angular_velocity) in &mut bodies {
@@ -87,16 +94,19 @@ pub fn integrate_velocities<D: Dim>(
 /// Torques are compared rather than angular accelerations, since I turns with the body.
 pub fn remember_velocities<D: Dim>(
     clock: Res<Clock>,
-    mut bodies: Query<(
-        &Acceleration<VectorOf<D>>,
-        &AngularAcceleration<AngularOf<D>>,
-        &Torque<AngularOf<D>>,
-        &InverseInertia<D::Inertia>,
-        &Orientation<D::Rotation>,
-        &mut LinearVelocity<VectorOf<D>>,
-        &mut AngularVelocity<AngularOf<D>>,
-        &mut PreviousVelocity<VectorOf<D>, AngularOf<D>>,
-    )>,
+    mut bodies: Query<
+        (
+            &Acceleration<VectorOf<D>>,
+            &AngularAcceleration<AngularOf<D>>,
+            &Torque<AngularOf<D>>,
+            &InverseInertia<D::Inertia>,
+            &Orientation<D::Rotation>,
+            &mut LinearVelocity<VectorOf<D>>,
+            &mut AngularVelocity<AngularOf<D>>,
+            &mut PreviousVelocity<VectorOf<D>, AngularOf<D>>,
+        ),
+        Awake,
+    >,
 ) {
     let half_step = 0.5 * clock.part_before();
     for (a, alpha, torque, inverse, orientation, mut velocity, mut angular_velocity, mut previous) in &mut bodies {
@@ -116,16 +126,19 @@ pub fn update_positions<D: Geometry>(
     clock: Res<Clock>,
     corrections: Option<Res<PositionCorrections<D>>>,
     mut books: Option<ResMut<Books<D>>>,
-    mut bodies: Query<(
-        &BodyIndex,
-        &mut Position<VectorOf<D>>,
-        &mut Orientation<D::Rotation>,
-        &LinearVelocity<VectorOf<D>>,
-        &mut AngularVelocity<AngularOf<D>>,
-        &BodyInertia<D::Inertia>,
-        &InverseInertia<D::Inertia>,
-        Option<&PreviousVelocity<VectorOf<D>, AngularOf<D>>>,
-    )>,
+    mut bodies: Query<
+        (
+            &BodyIndex,
+            &mut Position<VectorOf<D>>,
+            &mut Orientation<D::Rotation>,
+            &LinearVelocity<VectorOf<D>>,
+            &mut AngularVelocity<AngularOf<D>>,
+            &BodyInertia<D::Inertia>,
+            &InverseInertia<D::Inertia>,
+            Option<&PreviousVelocity<VectorOf<D>, AngularOf<D>>>,
+        ),
+        Awake,
+    >,
     mut fault: ResMut<Fault>,
 ) {
     let corrections = corrections.as_deref();

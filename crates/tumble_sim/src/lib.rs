@@ -16,6 +16,7 @@ pub mod ledger;
 mod needs;
 pub mod notice;
 pub mod part;
+pub mod rest;
 pub mod schedule;
 pub mod settings;
 mod simulation;
@@ -40,6 +41,7 @@ pub use joint::{Joint, JointKind, JointMotion, JointProblem, JointTable, Spatial
 pub use ledger::Ledger;
 pub use notice::Notices;
 pub use part::{Amount, Groups, MaterialId, Part, PartOf, Parts, Response};
+pub use rest::{Asleep, Rest, SleepSettings};
 pub use schedule::{ForceSystems, StepSystems};
 pub use settings::{
     ContactModel, ImpulseSettings, Integrator, PenaltyLaw, PenaltySettings, Settings, SpringDamperSettings,

@@ -32,6 +32,7 @@ pub(crate) enum Need {
     ImpactTimes,
     Resting,
     SoftStep,
+    Sleep,
     Joints,
     JointSprings,
     Ledger,
@@ -67,6 +68,7 @@ pub(crate) fn needs<D: Geometry>(world: &mut World) -> BTreeSet<Need> {
         }
         (ContactModel::SoftStep, _) => {
             need(true, Need::SoftStep);
+            need(settings.sleep.is_some(), Need::Sleep);
             need(joints, Need::Joints);
         }
         (ContactModel::Penalty, law) => {

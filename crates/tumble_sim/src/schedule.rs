@@ -39,6 +39,7 @@ use crate::integrate::{
 use crate::joint::{apply_joint_springs, correct_curvature, stop_joints};
 use crate::ledger::{self, ForceLine};
 use crate::needs::Need;
+use crate::rest::settle;
 
 /// The phases of a step, in the order they run. Hook your own systems between them.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -110,6 +111,7 @@ enum Place {
     BeforeStop,
     AfterStop,
     Close,
+    Sleep,
 }
 
 /// The schedule of one step.
@@ -178,7 +180,7 @@ pub(crate) fn step_schedule<D: Geometry>() -> Schedule {
             .in_set(UpdatePositions),
     );
     schedule.configure_sets(
-        ((Place::BeforeStop, Place::StopJoints, Place::AfterStop).chain(), Place::Impacts, Place::Close)
+        ((Place::BeforeStop, Place::StopJoints, Place::AfterStop).chain(), Place::Impacts, Place::Close, Place::Sleep)
             .chain()
             .in_set(ResolveImpulses),
     );
@@ -247,6 +249,7 @@ pub(crate) fn add_systems<D: Geometry>(need: Need, step: &mut Schedule, begin: &
             take_soft_steps::<D>.in_set(Place::Filter),
             mend_soft_joints::<D>.in_set(Place::FilterPositions),
         )),
+        Need::Sleep => step.add_systems(settle::<D>.in_set(Place::Sleep)),
         Need::Joints => {
             begin.add_systems(stop_joints::<D>.in_set(Place::StopJoints));
             step.add_systems((

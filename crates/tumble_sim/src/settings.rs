@@ -5,6 +5,8 @@ use tumble_math::{Dim, Linear, Planar};
 use tumble_solver::soft_step::SoftSettings;
 use tumble_solver::velocity_lcp::{Restitution, VelocitySettings, VelocitySolver};
 
+use crate::rest::SleepSettings;
+
 /// Where steps are cut at impacts, slower bounces are rest: what is left of the Zeno time 2 v/(g (1 − ε)) is then below 1e-9 s up to
 /// ε = 0.97 [length scales per second].
 const SLOWEST_BOUNCE: f64 = 1e-10;
@@ -163,6 +165,8 @@ pub struct Settings<D: Dim = Planar> {
     pub velocity_lcp: VelocityLcpSettings,
     /// Settings of the soft-step model.
     pub soft_step: SoftSettings,
+    /// When bodies that rest fall asleep; `None` for never, which is the default. Only under the soft-step model; the others ignore it.
+    pub sleep: Option<SleepSettings>,
 }
 
 impl<D: Dim> Settings<D> {
@@ -181,6 +185,7 @@ impl<D: Dim> Settings<D> {
             impulse: ImpulseSettings::default(),
             velocity_lcp: VelocityLcpSettings::default(),
             soft_step: SoftSettings::default(),
+            sleep: None,
         }
     }
 

@@ -28,6 +28,7 @@ use crate::ledger::{Books, Ledger};
 use crate::needs::Need;
 use crate::notice::Notices;
 use crate::part::{Part, PartOf, Response};
+use crate::rest::{Rest, wake_all};
 use crate::schedule::{ForceSystems, UserForce, begin_schedule};
 use crate::settings::{ContactModel, Integrator, Settings};
 use crate::structure::Structure;
@@ -173,6 +174,7 @@ impl<D: Geometry> Simulation<D> {
         self.prepare()?;
         self.forget_last_step();
         if rebuilt || self.was_edited() {
+            wake_all(&mut self.world);
             self.world.insert_resource(Beginning::Yes);
             self.begin.run(&mut self.world);
             self.world.insert_resource(Beginning::No);
@@ -384,6 +386,7 @@ pub(crate) fn new_world<D: Geometry>(settings: Settings<D>) -> World {
     world.insert_resource(settings);
     world.init_resource::<Structure>();
     world.init_resource::<Threads>();
+    world.init_resource::<Rest>();
     world.init_resource::<Beginning>();
     world.init_resource::<BodyTable>();
     world.init_resource::<Colliders<D>>();
@@ -408,6 +411,7 @@ pub(crate) fn new_world<D: Geometry>(settings: Settings<D>) -> World {
 
 /// Rebuilds the tables of bodies and parts.
 pub(crate) fn rebuild<D: Geometry>(world: &mut World) -> Result<(), StepError> {
+    wake_all(world);
     prepare_bodies::<D>(world)?;
     prepare_joints::<D>(world)?;
     prepare_colliders::<D>(world);

@@ -164,6 +164,21 @@ pub struct SoftStepEntry {
     /// Fastest push out of an overlap [m/s]. Default 3 length scales per second.
     #[serde(default)]
     pub push_speed: Option<f64>,
+    /// Lets bodies sleep that have come to rest; absent for never. `()` takes the defaults.
+    #[serde(default)]
+    pub sleep: Option<SleepEntry>,
+}
+
+/// When bodies fall asleep; absent fields take the defaults.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SleepEntry {
+    /// No point of a body is faster than this [m/s]. Default 0.05 length scales per second.
+    #[serde(default)]
+    pub speed: Option<f64>,
+    /// For so long [s]. Default 0.5.
+    #[serde(default)]
+    pub after: Option<f64>,
 }
 
 /// Solvers of the velocity complementarity model.

@@ -31,7 +31,7 @@ mod turn;
 pub use body::{Axis, BodyEntry, BodyKind, Drag, Groups, Jitter, Keyframe, Repeat, RepeatGrid, RepeatLine};
 pub use coefficient::Coefficient;
 pub use contact::{
-    ContactModel, ImpulseEntry, ModelEntries, PenaltyEntry, PenaltyLaw, RestitutionLaw, SoftStepEntry,
+    ContactModel, ImpulseEntry, ModelEntries, PenaltyEntry, PenaltyLaw, RestitutionLaw, SleepEntry, SoftStepEntry,
     VelocityLcpEntry, VelocitySolver,
 };
 pub use dimension::{Absent, AsCounts, Dialect, Dimension, Entry};

@@ -73,6 +73,16 @@ fn models<D: Dialect>(scene: &Scene<D>, found: &mut Findings) {
     if soft.substeps == Some(0) {
         found.error(&path.field("substeps"), "`substeps` must be at least 1", "a step consists of them");
     }
+    if let Some(sleep) = &soft.sleep {
+        let path = path.field("sleep");
+        for (field, what, value) in
+            [("speed", "the speed of a sleeper", sleep.speed), ("after", "the time to sleep", sleep.after)]
+        {
+            if let Some(value) = value {
+                found.positive(&path.field(field), what, value);
+            }
+        }
+    }
     let positive = [
         ("frequency", "the frequency of soft contact", soft.frequency),
         ("damping_ratio", "the damping ratio of soft contact", soft.damping_ratio),

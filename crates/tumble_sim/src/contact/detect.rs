@@ -18,6 +18,7 @@ use crate::geometry::Geometry;
 use crate::joint::JointTable;
 use crate::notice::Notices;
 use crate::part::Response;
+use crate::rest::Awake;
 use crate::{Clock, ContactModel, Settings};
 
 /// Pose and motion of a body as of the last detection.
@@ -161,6 +162,7 @@ type MotionQuery<'w, 's, D> = Query<
         &'static Acceleration<<D as Dim>::Vector>,
         &'static AngularAcceleration<<D as Dim>::Angular>,
     ),
+    Awake,
 >;
 
 /// Bounds of all parts, and the pairs whose bounds overlap.

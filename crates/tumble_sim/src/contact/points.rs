@@ -14,6 +14,7 @@ use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, De
 use super::{ContactReuse, PointMemory, Touch, TouchPhase};
 use crate::fault::Fault;
 use crate::geometry::{ContactQuery, Geometry, Posed};
+use crate::rest::Awake;
 use crate::simulation::Beginning;
 use crate::threads::{PAIRS_OF_A_TASK, Threads};
 use crate::{Clock, Settings};
@@ -28,7 +29,10 @@ pub fn find_contacts<D: Geometry>(
     colliders: Res<Colliders<D>>,
     threads: Res<Threads>,
     mut detection: ResMut<Detection<D>>,
-    mut pairs: Query<(&mut ContactPair, &mut ContactManifold<D>, &mut ContactMemory<D>, Option<&mut ContactReuse<D>>)>,
+    mut pairs: Query<
+        (&mut ContactPair, &mut ContactManifold<D>, &mut ContactMemory<D>, Option<&mut ContactReuse<D>>),
+        Awake,
+    >,
     mut messages: ResMut<Messages<Touch>>,
     clock: Res<Clock>,
     beginning: Res<Beginning>,

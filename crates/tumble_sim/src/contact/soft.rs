@@ -19,6 +19,7 @@ use crate::geometry::Geometry;
 use crate::joint::{JointProblem, JointTable, joint_tolerance};
 use crate::ledger::Books;
 use crate::part::Response;
+use crate::rest::Awake;
 use crate::schedule::StepSystems;
 use crate::threads::{PAIRS_OF_A_TASK, Threads};
 use crate::{Clock, Settings};
@@ -77,6 +78,7 @@ type SoftPairs<'w, 's, D> = Query<
         &'static mut ContactMemory<D>,
         &'static mut ContactReuse<D>,
     ),
+    Awake,
 >;
 
 type SoftBodies<'w, 's, D> = Query<
@@ -93,6 +95,7 @@ type SoftBodies<'w, 's, D> = Query<
         &'static Orientation<<D as Dim>::Rotation>,
         &'static Position<<D as Dim>::Vector>,
     ),
+    Awake,
 >;
 
 /// Whether the points of a pair push.

@@ -9,6 +9,7 @@ use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Linear};
 
 use crate::body::{AngularVelocity, Force, LinearVelocity, Torque};
+use crate::rest::Awake;
 
 /// Drag that grows with speed.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
@@ -30,13 +31,16 @@ pub struct QuadraticDrag {
 
 /// f −= c v and τ −= c_r ω.
 pub fn apply_linear_drag<D: Dim>(
-    mut bodies: Query<(
-        &mut Force<D::Vector>,
-        &mut Torque<D::Angular>,
-        &LinearVelocity<D::Vector>,
-        &AngularVelocity<D::Angular>,
-        &LinearDrag,
-    )>,
+    mut bodies: Query<
+        (
+            &mut Force<D::Vector>,
+            &mut Torque<D::Angular>,
+            &LinearVelocity<D::Vector>,
+            &AngularVelocity<D::Angular>,
+            &LinearDrag,
+        ),
+        Awake,
+    >,
 ) {
     for (mut force, mut torque, velocity, spin, drag) in &mut bodies {
         force.bypass_change_detection().0 -= velocity.0 * drag.translation;
@@ -46,13 +50,16 @@ pub fn apply_linear_drag<D: Dim>(
 
 /// f −= b |v| v and τ −= b_r |ω| ω.
 pub fn apply_quadratic_drag<D: Dim>(
-    mut bodies: Query<(
-        &mut Force<D::Vector>,
-        &mut Torque<D::Angular>,
-        &LinearVelocity<D::Vector>,
-        &AngularVelocity<D::Angular>,
-        &QuadraticDrag,
-    )>,
+    mut bodies: Query<
+        (
+            &mut Force<D::Vector>,
+            &mut Torque<D::Angular>,
+            &LinearVelocity<D::Vector>,
+            &AngularVelocity<D::Angular>,
+            &QuadraticDrag,
+        ),
+        Awake,
+    >,
 ) {
     for (mut force, mut torque, velocity, spin, drag) in &mut bodies {
         force.bypass_change_detection().0 -= velocity.0 * (drag.translation * velocity.0.length());
