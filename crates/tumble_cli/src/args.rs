@@ -78,6 +78,9 @@ pub struct RunArguments {
     /// Also draw N pictures, evenly spaced over the run: frames/0000.png, … and scene.gif
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
     pub frames: Option<u32>,
+    /// Number of threads that share the steps of large scenes under soft-step; default: 1. The bits are the same whatever it is
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub threads: Option<NonZero<usize>>,
     /// Print only failed expectations and errors
     #[arg(long, short)]
     pub quiet: bool,

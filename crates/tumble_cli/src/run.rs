@@ -1,5 +1,6 @@
 //! `tumble run`: a scene from its first step to its files.
 
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
 use tumble_record::frames::{FrameSettings, write_frames};
@@ -40,6 +41,8 @@ fn run_loaded<D: SceneDim>(
         tell(loaded.warnings.render(stderr_color()));
     }
     let mut prepared = Prepared::new(source, loaded, &arguments.overrides, arguments.every)?;
+    let threads = arguments.threads.map_or(1, NonZero::get);
+    prepared.simulation.set_threads(threads).map_err(|error| Failure::Run(error.to_string()))?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new(OUT).join(source.stem()));
     let output = Output { folder: OutputFolder::new(folder), arguments };
     interrupt::listen();

@@ -22,6 +22,7 @@ mod tree;
 mod volume;
 
 use tumble_math::Vector;
+use tumble_team::Team;
 
 pub use oriented::{OrientedBox, TurningBox};
 pub use oriented_spatial::SpatialOrientedBox;
@@ -52,8 +53,18 @@ pub struct BroadPhase<V> {
     pairs: Vec<(u32, u32)>,
     /// Scratch space, kept so that a steady step allocates nothing: pairs as one number each, the smaller id in its upper half.
     candidates: Vec<u64>,
+    searches: Vec<Search>,
+}
+
+/// What a thread finds.
+#[derive(Clone, Debug, Default)]
+struct Search {
+    candidates: Vec<u64>,
     stack: Vec<u32>,
 }
+
+/// Changed proxies that a thread looks after at a time.
+const PROXIES_OF_A_TASK: usize = 128;
 
 #[derive(Clone, Copy, Debug)]
 struct Proxy<V> {
@@ -82,7 +93,7 @@ impl<V> Default for BroadPhase<V> {
             marked: Vec::new(),
             pairs: Vec::new(),
             candidates: Vec::new(),
-            stack: Vec::new(),
+            searches: Vec::new(),
         }
     }
 }
@@ -152,13 +163,18 @@ impl<V: Vector> BroadPhase<V> {
     /// `filter(smaller id, larger id)` says whether a pair is wanted; it is asked when the pair may begin, and again only when one
     /// of the two moved out of its fat volume, was replaced, or was [touched](Self::touch).
     pub fn update_pairs(&mut self, filter: impl Fn(u32, u32) -> bool, changes: &mut PairChanges) {
+        self.share_pairs(&Team::alone(), filter, changes);
+    }
+
+    /// The same, with the search shared by a team.
+    pub fn share_pairs(&mut self, team: &Team, filter: impl Fn(u32, u32) -> bool, changes: &mut PairChanges) {
         changes.added.clear();
         changes.removed.clear();
         if self.marked.is_empty() {
             return;
         }
         self.drop_ended_pairs(&filter, &mut changes.removed);
-        self.find_candidates();
+        self.find_candidates(team);
         self.candidates.sort_unstable();
         self.add_new_pairs(&filter, &mut changes.added);
         for id in self.marked.drain(..) {
@@ -200,32 +216,45 @@ impl<V: Vector> BroadPhase<V> {
     }
 
     /// Collects every overlapping pair of which at least one is marked, each once.
-    fn find_candidates(&mut self) {
-        let Self { proxies, tree, half_spaces, marks, marked, candidates, stack, .. } = self;
-        candidates.clear();
-        for &id in marked.iter() {
-            let Some(proxy) = proxies[id as usize] else { continue };
-            let mut add = |other: u32| candidates.push(u64::from(id.min(other)) << 32 | u64::from(id.max(other)));
-            match &proxy.fat {
-                Volume::Box(bounds) => {
-                    // Of two marked boxes, the one with the smaller id reports the pair.
-                    tree.query(bounds, stack, |other| {
-                        if other > id || (other < id && marks[other as usize] == Mark::Clean) {
-                            add(other);
-                        }
-                    });
-                    for &other in half_spaces.iter() {
-                        if proxies[other as usize].is_some_and(|other| other.fat.overlaps(&proxy.fat)) {
-                            add(other);
-                        }
+    fn find_candidates(&mut self, team: &Team) {
+        let tasks = self.marked.len().div_ceil(PROXIES_OF_A_TASK);
+        let mut searches = std::mem::take(&mut self.searches);
+        searches.resize_with(tasks.max(searches.len()), Search::default);
+        let known = &*self;
+        team.share(known.marked.chunks(PROXIES_OF_A_TASK).zip(&mut searches), |(marked, search)| {
+            marked.iter().for_each(|id| known.search(*id, search));
+        });
+        self.candidates.clear();
+        for search in &mut searches[..tasks] {
+            self.candidates.append(&mut search.candidates);
+        }
+        self.searches = searches;
+    }
+
+    /// Collects the overlapping pairs of a marked proxy.
+    fn search(&self, id: u32, search: &mut Search) {
+        let Some(proxy) = self.proxies[id as usize] else { return };
+        let Search { candidates, stack } = search;
+        let mut add = |other: u32| candidates.push(u64::from(id.min(other)) << 32 | u64::from(id.max(other)));
+        match &proxy.fat {
+            Volume::Box(bounds) => {
+                // Of two marked boxes, the one with the smaller id reports the pair.
+                self.tree.query(bounds, stack, |other| {
+                    if other > id || (other < id && self.marks[other as usize] == Mark::Clean) {
+                        add(other);
+                    }
+                });
+                for &other in &self.half_spaces {
+                    if self.proxies[other as usize].is_some_and(|other| other.fat.overlaps(&proxy.fat)) {
+                        add(other);
                     }
                 }
-                Volume::HalfSpace { .. } => {
-                    for (other, other_proxy) in proxies.iter().enumerate() {
-                        let clean = marks[other] == Mark::Clean;
-                        if clean && other_proxy.is_some_and(|other| other.fat.overlaps(&proxy.fat)) {
-                            add(other as u32);
-                        }
+            }
+            Volume::HalfSpace { .. } => {
+                for (other, other_proxy) in self.proxies.iter().enumerate() {
+                    let clean = self.marks[other] == Mark::Clean;
+                    if clean && other_proxy.is_some_and(|other| other.fat.overlaps(&proxy.fat)) {
+                        add(other as u32);
                     }
                 }
             }

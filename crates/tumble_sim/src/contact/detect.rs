@@ -19,6 +19,7 @@ use crate::joint::JointTable;
 use crate::notice::Notices;
 use crate::part::Response;
 use crate::rest::Awake;
+use crate::threads::Threads;
 use crate::{Clock, ContactModel, Settings};
 
 /// Pose and motion of a body as of the last detection.
@@ -167,8 +168,7 @@ type MotionQuery<'w, 's, D> = Query<
 
 /// Bounds of all parts, and the pairs whose bounds overlap.
 pub fn find_pairs<D: Geometry>(
-    clock: Res<Clock>,
-    settings: Res<Settings<D>>,
+    (clock, settings, threads): (Res<Clock>, Res<Settings<D>>, Res<Threads>),
     table: Res<BodyTable>,
     colliders: Res<Colliders<D>>,
     ignored: Res<IgnoredPairs>,
@@ -254,7 +254,7 @@ pub fn find_pairs<D: Geometry>(
         !matches!([a, b].map(|part| &detection.fat_boxes[part as usize]), [Some(a), Some(b)] if !a.overlaps(b))
             && may_touch(&list[a as usize], &list[b as usize], &table, &ignored, &joints)
     };
-    detection.broad.update_pairs(filter, &mut detection.changes);
+    detection.broad.share_pairs(threads.team(), filter, &mut detection.changes);
 }
 
 /// Whether a body is where it was, within a distance for its centre and for the farthest of its points [m].

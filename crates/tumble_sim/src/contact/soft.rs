@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Inertia, Linear, Matrix};
-use tumble_solver::soft_step::{Colours, PairColour, SoftOutcome, SoftPair, SoftPoint, SoftStep, Width};
+use tumble_solver::soft_step::{Colours, PairColour, Places, SoftOutcome, SoftPair, SoftPoint, SoftStep, Width};
 use tumble_solver::{ContactRow, SolverBody};
+use tumble_team::Team;
 
 use super::problem::{BodyQuery, ContactProblem, ContactReport, RowSource};
 use super::{ContactManifold, ContactMemory, ContactPair, ContactReuse, Detection, IN_TABLES, PositionCorrections};
@@ -164,32 +165,7 @@ pub fn take_soft_steps<D: Geometry>(
     colour_pairs(model, acting, beginning, row as usize);
     let acts = !acting.is_empty();
     model.lay_out(team);
-    model.fill(team, |places| {
-        let tables = pairs.contiguous_iter().expect(IN_TABLES);
-        let all =
-            tables.flat_map(|(_, pairs, manifolds, memory, reuse)| pairs.iter().zip(manifolds).zip(memory).zip(reuse));
-        for (number, (((pair, manifold), memory), reuse)) in all.enumerate() {
-            if !places.want(number) {
-                continue;
-            }
-            let [a, b] = pair.bodies;
-            let [at_a, at_b] = pair.bodies.map(|body| detection.motions()[body as usize].pose.position);
-            let found = D::points(&manifold.0);
-            let mut points = D::PerPoint::<SoftPoint<D>>::default();
-            for ((soft, point), memory) in points.as_mut().iter_mut().zip(found).zip(memory.0.as_ref()) {
-                *soft = SoftPoint {
-                    arm_a: point.point - at_a,
-                    arm_b: point.point - at_b,
-                    separation: point.separation,
-                    impulse: memory.impulse,
-                    slip: memory.slip,
-                };
-            }
-            let (normal, surface, points) = (D::normal(&manifold.0), pair.surface, &points.as_ref()[..found.len()]);
-            let rest_speed = 2.0 * REST_STEPS * settings.rest_speed(normal);
-            places.fill(number, &SoftPair { a, b, normal, surface, rest_speed, twist: reuse.twist, points });
-        }
-    });
+    model.fill(team, |places| fill_places(places, &pairs, &detection, &settings));
     joints.build(
         &joint_table,
         bodies.iter().map(|(index, .., orientation, position)| {
@@ -206,46 +182,10 @@ pub fn take_soft_steps<D: Geometry>(
 
     pushed.resize_with(problem.bodies.len(), AtomicBool::default);
     pushed.iter_mut().for_each(|pushed| *pushed.get_mut() = false);
-    let (solved, pushed) = (&*model, &*pushed);
-    let mut first = 0;
-    for (_, pairs, manifolds, memories, reuses) in pairs.contiguous_iter_mut().expect(IN_TABLES) {
-        let (pairs, _) = ContiguousMut::split(pairs);
-        let (memories, _) = ContiguousMut::split(memories);
-        let (reuses, _) = ContiguousMut::split(reuses);
-        let count = pairs.len();
-        let chunks = pairs.chunks_mut(PAIRS_OF_A_TASK).zip(manifolds.chunks(PAIRS_OF_A_TASK));
-        let chunks = chunks.zip(memories.chunks_mut(PAIRS_OF_A_TASK)).zip(reuses.chunks_mut(PAIRS_OF_A_TASK));
-        team.share(chunks.enumerate(), |(chunk, (((pairs, manifolds), memories), reuses))| {
-            let pairs = pairs.iter_mut().zip(manifolds).zip(memories).zip(reuses);
-            for (k, (((pair, manifold), memory), reuse)) in pairs.enumerate() {
-                if !pushes(pair, manifold) {
-                    continue;
-                }
-                let number = first + chunk * PAIRS_OF_A_TASK + k;
-                let outcome = solved.outcome(number);
-                pair.colour = solved.colour(number);
-                reuse.twist = outcome.twist();
-                let normal = D::normal(&manifold.0);
-                let twist = Twisting::of(&outcome, manifold);
-                let mut touched = false;
-                for ((k, point), memory) in D::points(&manifold.0).iter().enumerate().zip(memory.0.as_mut()) {
-                    (memory.impulse, memory.slip) = (outcome.impulse(k), outcome.slip);
-                    memory.given = outcome.total_in_world(k, normal) + twist.at(point.point);
-                    // It met the surface in this step, wherever the rest of the step took it.
-                    memory.held = outcome.pushed(k);
-                    touched |= memory.held;
-                }
-                if touched {
-                    for body in pair.bodies {
-                        pushed[body as usize].store(true, Ordering::Relaxed);
-                    }
-                }
-            }
-        });
-        first += count;
-    }
+    let pushed = &*pushed;
+    remember_outcomes(model, team, &mut pairs, pushed);
     if books.is_some() {
-        note_rows(problem, solved, &detection, &pairs, substep);
+        note_rows(problem, model, &detection, &pairs, substep);
     }
     // In n substeps a free body moves by v₁ Δt − a Δt² (n − 1)/2n, with v₁ its velocity at the end; a whole step of symplectic Euler, by v₁ Δt.
     // A body that no contact pushed takes the whole step: under a force that is constant over the step, substeps would make it swing ever wider.
@@ -303,6 +243,80 @@ fn colour_pairs<D: Geometry>(model: &mut SoftStep<D>, acting: &mut [Acting], beg
     beginning.sort_unstable_by_key(|k| acting[*k as usize].parts);
     for pair in beginning.iter().map(|k| &acting[*k as usize]) {
         model.announce(pair.row as usize, pair.points as usize, pair.colour);
+    }
+}
+
+/// Fills those places of a thread that have a pair.
+fn fill_places<D: Geometry>(
+    places: &mut Places<D>,
+    pairs: &SoftPairs<D>,
+    detection: &Detection<D>,
+    settings: &Settings<D>,
+) {
+    let tables = pairs.contiguous_iter().expect(IN_TABLES);
+    let all =
+        tables.flat_map(|(_, pairs, manifolds, memory, reuse)| pairs.iter().zip(manifolds).zip(memory).zip(reuse));
+    for (number, (((pair, manifold), memory), reuse)) in all.enumerate() {
+        if !places.want(number) {
+            continue;
+        }
+        let [a, b] = pair.bodies;
+        let [at_a, at_b] = pair.bodies.map(|body| detection.motions()[body as usize].pose.position);
+        let found = D::points(&manifold.0);
+        let mut points = D::PerPoint::<SoftPoint<D>>::default();
+        for ((soft, point), memory) in points.as_mut().iter_mut().zip(found).zip(memory.0.as_ref()) {
+            *soft = SoftPoint {
+                arm_a: point.point - at_a,
+                arm_b: point.point - at_b,
+                separation: point.separation,
+                impulse: memory.impulse,
+                slip: memory.slip,
+            };
+        }
+        let (normal, surface, points) = (D::normal(&manifold.0), pair.surface, &points.as_ref()[..found.len()]);
+        let rest_speed = 2.0 * REST_STEPS * settings.rest_speed(normal);
+        places.fill(number, &SoftPair { a, b, normal, surface, rest_speed, twist: reuse.twist, points });
+    }
+}
+
+/// Hands what the step did to its contacts back to them, and notes which bodies were pushed.
+fn remember_outcomes<D: Geometry>(solved: &SoftStep<D>, team: &Team, pairs: &mut SoftPairs<D>, pushed: &[AtomicBool]) {
+    let mut first = 0;
+    for (_, pairs, manifolds, memories, reuses) in pairs.contiguous_iter_mut().expect(IN_TABLES) {
+        let (pairs, _) = ContiguousMut::split(pairs);
+        let (memories, _) = ContiguousMut::split(memories);
+        let (reuses, _) = ContiguousMut::split(reuses);
+        let count = pairs.len();
+        let chunks = pairs.chunks_mut(PAIRS_OF_A_TASK).zip(manifolds.chunks(PAIRS_OF_A_TASK));
+        let chunks = chunks.zip(memories.chunks_mut(PAIRS_OF_A_TASK)).zip(reuses.chunks_mut(PAIRS_OF_A_TASK));
+        team.share(chunks.enumerate(), |(chunk, (((pairs, manifolds), memories), reuses))| {
+            let pairs = pairs.iter_mut().zip(manifolds).zip(memories).zip(reuses);
+            for (k, (((pair, manifold), memory), reuse)) in pairs.enumerate() {
+                if !pushes(pair, manifold) {
+                    continue;
+                }
+                let number = first + chunk * PAIRS_OF_A_TASK + k;
+                let outcome = solved.outcome(number);
+                pair.colour = solved.colour(number);
+                reuse.twist = outcome.twist();
+                let normal = D::normal(&manifold.0);
+                let twist = Twisting::of(&outcome, manifold);
+                let mut touched = false;
+                for ((k, point), memory) in D::points(&manifold.0).iter().enumerate().zip(memory.0.as_mut()) {
+                    (memory.impulse, memory.slip) = (outcome.impulse(k), outcome.slip);
+                    memory.given = outcome.total_in_world(k, normal) + twist.at(point.point);
+                    // It met the surface in this step, wherever the rest of the step took it.
+                    memory.held = outcome.pushed(k);
+                    touched |= memory.held;
+                }
+                if touched {
+                    for body in pair.bodies {
+                        pushed[body as usize].store(true, Ordering::Relaxed);
+                    }
+                }
+            }
+        });
+        first += count;
     }
 }
 

@@ -248,9 +248,13 @@ impl<D: SoftDim> SoftStep<D> {
     pub fn lay_out(&mut self, team: &Team) {
         let Self { used, counts, ranks, .. } = self;
         let colours = |class: usize| {
-            let counts = counts[class];
-            let in_use = (0..COLOURS).filter(|colour| *used >> colour & 1 == 1);
-            in_use.map(move |colour| Colour { number: colour, pairs: counts[colour] })
+            let counts: &[u32; COLOURS] = &counts[class];
+            let mut left = *used;
+            std::iter::from_fn(move || {
+                let number = left.trailing_zeros() as usize;
+                left &= left.wrapping_sub(1);
+                counts.get(number).map(|pairs| Colour { number, pairs: *pairs })
+            })
         };
         for (rank, colour) in colours(0).enumerate() {
             ranks[colour.number] = rank as u8;

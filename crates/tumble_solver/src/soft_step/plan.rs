@@ -76,7 +76,10 @@ impl<D: SoftDim, const P: usize> Class<D, P> {
             }
             self.starts.push(next);
         }
-        self.packs.resize(next as usize, Pack::unused(world));
+        if self.packs.len() < next as usize {
+            self.packs.resize(next as usize, Pack::unused(world));
+        }
+        self.packs.truncate(next as usize);
         for at in 0..self.colours.len() {
             let Colour { number: colour, pairs } = self.colours[at];
             // Lanes without a pair are those at the end, but for pairs that go one by one.
