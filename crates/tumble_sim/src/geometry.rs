@@ -64,7 +64,8 @@ pub trait Geometry: MassDim<Vector: InDim<Dim = Self>> + SoftDim {
     /// Where the shape of a body is.
     fn volume(shape: &Self::Shape, pose: &Pose<Self>) -> Volume<Self::Vector>;
 
-    /// A close box around the shape of a body, grown by a margin [m]; `None` for one without bounds.
+    /// A close box around the shape of a body, grown by a margin [m]; `None` for one without bounds, and where it would be no closer than the
+    /// volume.
     fn oriented_box(shape: &Self::Shape, pose: &Pose<Self>, margin: f64) -> Option<Self::OrientedBox>;
 
     /// Largest distance of a point of the shape from the origin of its frame [m]; `None` for one without bounds.

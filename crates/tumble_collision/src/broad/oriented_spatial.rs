@@ -17,8 +17,7 @@ pub struct SpatialOrientedBox {
 }
 
 impl SpatialOrientedBox {
-    /// A box around a shape, grown by a margin on every side [m]; `None` for a half-space, which has no end, and for a sphere, which is the
-    /// same from all sides.
+    /// A box around a shape, grown by a margin on every side [m]; `None` for a half-space, which has no end.
     ///
     /// Boxes keep their own sides, what is long is boxed along its line, and hulls along the axes of their body.
     pub fn around(shape: &SpatialShape, pose: &Pose<Spatial>, margin: f64) -> Option<Self> {
@@ -30,7 +29,8 @@ impl SpatialOrientedBox {
         };
         let flat = |radius: f64| DVec3::new(radius, radius, 0.0);
         let (centre, axes, half) = match shape {
-            SpatialShape::HalfSpace(_) | SpatialShape::Sphere(_) => return None,
+            SpatialShape::HalfSpace(_) => return None,
+            SpatialShape::Sphere(sphere) => (sphere.centre(), DMat3::IDENTITY, DVec3::splat(sphere.radius())),
             SpatialShape::SpatialRod(rod) => along_line(rod.ends(), DVec3::splat(rod.radius())),
             SpatialShape::Capsule(capsule) => along_line(capsule.ends(), DVec3::splat(capsule.radius())),
             SpatialShape::Cylinder(cylinder) => along_line(cylinder.ends(), flat(cylinder.radius())),

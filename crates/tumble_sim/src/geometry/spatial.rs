@@ -41,7 +41,8 @@ impl Geometry for Spatial {
     }
 
     fn oriented_box(shape: &SpatialShape, pose: &Pose<Self>, margin: f64) -> Option<SpatialOrientedBox> {
-        SpatialOrientedBox::around(shape, pose, margin)
+        // A ball is the same from all sides: a second look would say nothing new.
+        if matches!(shape, SpatialShape::Sphere(_)) { None } else { SpatialOrientedBox::around(shape, pose, margin) }
     }
 
     fn extent(shape: &SpatialShape) -> Option<f64> {

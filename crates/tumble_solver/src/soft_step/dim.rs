@@ -185,9 +185,12 @@ pub type Frame<D, T> = <<D as LaneAlgebra>::Frame as Components>::Of<T>;
 /// Inverse mass per axis and inverse inertia of a body.
 pub type Masses<D, T> = (Axes<D, T>, Tensor<D, T>);
 
+/// Velocity and rate of turn, or displacement and turn.
+pub type Motions<D, T> = (Axes<D, T>, Turns<D, T>);
+
 /// The vectors of a dimension, over lanes.
 pub trait LaneAlgebra: Dim {
-    /// Blocks of four numbers that hold a velocity and a rate of turn.
+    /// Blocks of four numbers that hold a velocity and a rate of turn. A record of a body has twice as many: displacement and turn as well.
     const BLOCKS: usize;
     /// Blocks that hold inverse mass and inverse inertia.
     const MASS_BLOCKS: usize;
@@ -226,20 +229,14 @@ pub trait LaneAlgebra: Dim {
     /// without their common factor, one over the sum of their arms squared.
     fn twisted(normal: Self::Vector, twist: Twist<Self, f32>, arm: Self::Vector) -> Self::Vector;
 
-    /// Velocity and rate of turn out of the blocks of a body.
-    fn unpack<L: Lanes>(
-        lanes: L,
-        blocks: &[Block],
-        at: &[u32; WIDTH],
-    ) -> (Axes<Self, L::Number>, Turns<Self, L::Number>);
-    /// The same back.
-    fn pack<L: Lanes>(
-        lanes: L,
-        state: (Axes<Self, L::Number>, Turns<Self, L::Number>),
-        blocks: &[Block],
-        at: &[u32; WIDTH],
-    );
-
+    /// Velocity and rate of turn out of the records of bodies.
+    fn unpack<L: Lanes>(lanes: L, records: &[Block], at: &[u32; WIDTH]) -> Motions<Self, L::Number>;
+    /// The same, and displacement and turn, which follow in each record.
+    fn unpack_both<L: Lanes>(lanes: L, records: &[Block], at: &[u32; WIDTH]) -> [Motions<Self, L::Number>; 2];
+    /// Velocity and rate of turn back.
+    fn pack<L: Lanes>(lanes: L, motions: Motions<Self, L::Number>, records: &[Block], at: &[u32; WIDTH]);
+    /// Change of velocity and rate of turn into the blocks of a body.
+    fn put_gain(change: (Self::Vector, Self::Angular), blocks: &[Block], body: usize);
     /// Inverse mass and inverse inertia into the blocks of a body.
     fn pack_masses(mass: Self::Vector, inertia: Self::Inertia, blocks: &mut [Block], body: usize);
     /// The same for the body of each lane.
@@ -338,14 +335,26 @@ impl LaneAlgebra for Planar {
     }
 
     #[inline(always)]
-    fn unpack<L: Lanes>(lanes: L, blocks: &[Block], at: &[u32; WIDTH]) -> ([L::Number; 2], [L::Number; 1]) {
-        let [x, y, w, _] = lanes.gather(blocks, at, 1, 0);
+    fn unpack<L: Lanes>(lanes: L, records: &[Block], at: &[u32; WIDTH]) -> ([L::Number; 2], [L::Number; 1]) {
+        let [[x, y, w, _]] = lanes.gather(records.as_chunks::<2>().0, at);
         ([x, y], [w])
     }
 
     #[inline(always)]
-    fn pack<L: Lanes>(lanes: L, ([x, y], [w]): ([L::Number; 2], [L::Number; 1]), blocks: &[Block], at: &[u32; WIDTH]) {
-        lanes.scatter([x, y, w, lanes.splat(0.0)], blocks, at, 1, 0);
+    fn unpack_both<L: Lanes>(lanes: L, records: &[Block], at: &[u32; WIDTH]) -> [([L::Number; 2], [L::Number; 1]); 2] {
+        lanes.gather::<2, 2>(records.as_chunks().0, at).map(
+            #[inline(always)]
+            |[x, y, w, _]| ([x, y], [w]),
+        )
+    }
+
+    #[inline(always)]
+    fn pack<L: Lanes>(lanes: L, ([x, y], [w]): ([L::Number; 2], [L::Number; 1]), records: &[Block], at: &[u32; WIDTH]) {
+        lanes.scatter([[x, y, w, lanes.splat(0.0)]], records.as_chunks::<2>().0, at);
+    }
+
+    fn put_gain((linear, angular): (DVec2, f64), blocks: &[Block], body: usize) {
+        blocks[body].set([linear.x as f32, linear.y as f32, angular as f32, 0.0]);
     }
 
     fn pack_masses(mass: DVec2, inertia: f64, blocks: &mut [Block], body: usize) {
@@ -354,7 +363,7 @@ impl LaneAlgebra for Planar {
 
     #[inline(always)]
     fn unpack_masses<L: Lanes>(lanes: L, blocks: &[Block], at: &[u32; WIDTH]) -> ([L::Number; 2], [L::Number; 1]) {
-        let [x, y, inertia, _] = lanes.gather(blocks, at, 1, 0);
+        let [[x, y, inertia, _]] = lanes.gather(blocks.as_chunks::<1>().0, at);
         ([x, y], [inertia])
     }
 
@@ -463,21 +472,33 @@ impl LaneAlgebra for Spatial {
     }
 
     #[inline(always)]
-    fn unpack<L: Lanes>(lanes: L, blocks: &[Block], at: &[u32; WIDTH]) -> ([L::Number; 3], [L::Number; 3]) {
-        let [x, y, z, _] = lanes.gather(blocks, at, 2, 0);
-        let [a, b, c, _] = lanes.gather(blocks, at, 2, 1);
+    fn unpack<L: Lanes>(lanes: L, records: &[Block], at: &[u32; WIDTH]) -> ([L::Number; 3], [L::Number; 3]) {
+        let [[x, y, z, _], [a, b, c, _]] = lanes.gather(records.as_chunks::<4>().0, at);
         ([x, y, z], [a, b, c])
+    }
+
+    #[inline(always)]
+    fn unpack_both<L: Lanes>(lanes: L, records: &[Block], at: &[u32; WIDTH]) -> [([L::Number; 3], [L::Number; 3]); 2] {
+        let [[x, y, z, _], [a, b, c, _], [dx, dy, dz, _], [da, db, dc, _]] =
+            lanes.gather(records.as_chunks::<4>().0, at);
+        [([x, y, z], [a, b, c]), ([dx, dy, dz], [da, db, dc])]
     }
 
     #[inline(always)]
     fn pack<L: Lanes>(
         lanes: L,
         ([x, y, z], [a, b, c]): ([L::Number; 3], [L::Number; 3]),
-        blocks: &[Block],
+        records: &[Block],
         at: &[u32; WIDTH],
     ) {
-        lanes.scatter([x, y, z, lanes.splat(0.0)], blocks, at, 2, 0);
-        lanes.scatter([a, b, c, lanes.splat(0.0)], blocks, at, 2, 1);
+        let zero = lanes.splat(0.0);
+        lanes.scatter([[x, y, z, zero], [a, b, c, zero]], records.as_chunks::<4>().0, at);
+    }
+
+    fn put_gain((linear, angular): (DVec3, DVec3), blocks: &[Block], body: usize) {
+        for (block, vector) in blocks[2 * body..].iter().zip([linear, angular]) {
+            block.set([vector.x as f32, vector.y as f32, vector.z as f32, 0.0]);
+        }
     }
 
     fn pack_masses(mass: DVec3, inertia: SymmetricTensor, blocks: &mut [Block], body: usize) {
@@ -488,9 +509,7 @@ impl LaneAlgebra for Spatial {
 
     #[inline(always)]
     fn unpack_masses<L: Lanes>(lanes: L, blocks: &[Block], at: &[u32; WIDTH]) -> ([L::Number; 3], [L::Number; 6]) {
-        let [x, y, z, _] = lanes.gather(blocks, at, 3, 0);
-        let [xx, yy, zz, _] = lanes.gather(blocks, at, 3, 1);
-        let [yz, xz, xy, _] = lanes.gather(blocks, at, 3, 2);
+        let [[x, y, z, _], [xx, yy, zz, _], [yz, xz, xy, _]] = lanes.gather(blocks.as_chunks::<3>().0, at);
         ([x, y, z], [xx, yy, zz, yz, xz, xy])
     }
 

@@ -53,14 +53,22 @@ struct Two<D: SoftDim, N: Number> {
 
 impl<D: SoftDim, N: Number> Two<D, N> {
     #[inline(always)]
-    fn gather<L: Lanes<Number = N>, const P: usize>(lanes: L, pack: &Pack<D, P>, blocks: &[Block]) -> Self {
-        Self { a: D::unpack(lanes, blocks, &pack.a), b: D::unpack(lanes, blocks, &pack.b) }
+    fn gather<L: Lanes<Number = N>, const P: usize>(lanes: L, pack: &Pack<D, P>, records: &[Block]) -> Self {
+        Self { a: D::unpack(lanes, records, &pack.a), b: D::unpack(lanes, records, &pack.b) }
+    }
+
+    /// Velocities, and displacements.
+    #[inline(always)]
+    fn gather_both<L: Lanes<Number = N>, const P: usize>(lanes: L, pack: &Pack<D, P>, records: &[Block]) -> [Self; 2] {
+        let [velocity_a, moved_a] = D::unpack_both(lanes, records, &pack.a);
+        let [velocity_b, moved_b] = D::unpack_both(lanes, records, &pack.b);
+        [Self { a: velocity_a, b: velocity_b }, Self { a: moved_a, b: moved_b }]
     }
 
     #[inline(always)]
-    fn scatter<L: Lanes<Number = N>, const P: usize>(self, lanes: L, pack: &Pack<D, P>, blocks: &[Block]) {
-        D::pack(lanes, self.a, blocks, &pack.a);
-        D::pack(lanes, self.b, blocks, &pack.b);
+    fn scatter<L: Lanes<Number = N>, const P: usize>(self, lanes: L, pack: &Pack<D, P>, records: &[Block]) {
+        D::pack(lanes, self.a, records, &pack.a);
+        D::pack(lanes, self.b, records, &pack.b);
     }
 
     /// That of b's point relative to a's along the normal: n · (v_b − v_a) + (r_b × n) · ω_b − (r_a × n) · ω_a.
@@ -118,7 +126,7 @@ pub fn prepare<D: SoftDim, L: Lanes, const P: usize>(
     lanes: L,
     pack: &mut Pack<D, P>,
     masses: &[Block],
-    starts: &[Block],
+    records: &[Block],
 ) {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
     let pair = Pair::<D, L::Number> {
@@ -134,7 +142,7 @@ pub fn prepare<D: SoftDim, L: Lanes, const P: usize>(
 
     let normal = D::Axes::load(lanes, &pack.normal);
     let linear = D::Axes::dot(normal, D::Axes::each(normal, D::Axes::plus(pair.a.0, pair.b.0)));
-    let velocities = Two::<D, L::Number>::gather(lanes, pack, starts);
+    let velocities = Two::<D, L::Number>::gather(lanes, pack, records);
     let (restitution, rest_speed) = (lanes.load(&pack.restitution), lanes.load(&pack.rest_speed));
     for point in &mut pack.points {
         let turn_a = D::Turns::load(lanes, &point.turn_a);
@@ -156,7 +164,7 @@ pub fn prepare<D: SoftDim, L: Lanes, const P: usize>(
 
 /// Applies the impulses that the points have.
 #[inline(always)]
-pub fn warm_start<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &Pack<D, P>, motions: &[Block]) {
+pub fn warm_start<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &Pack<D, P>, records: &[Block]) {
     let masses = Pair::<D, L::Number>::load(lanes, pack);
     let normal = D::Axes::load(lanes, &pack.normal);
     let friction = Friction::load(lanes, pack);
@@ -170,9 +178,9 @@ pub fn warm_start<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &Pack<D,
         turn_b = D::Turns::plus(turn_b, D::Turns::times(D::Turns::load(lanes, &point.turn_b), impulse));
     }
     let impulse = D::Axes::plus(D::Axes::times(normal, push), friction.impulse);
-    let mut velocities = Two::<D, L::Number>::gather(lanes, pack, motions);
+    let mut velocities = Two::<D, L::Number>::gather(lanes, pack, records);
     velocities.push(&masses, impulse, turn_a, turn_b);
-    velocities.scatter(lanes, pack, motions);
+    velocities.scatter(lanes, pack, records);
 }
 
 /// An impulse across the normal, at the mean of the points, and one about the normal.
@@ -213,15 +221,13 @@ pub const RELAXING: bool = false;
 pub fn sweep<D: SoftDim, L: Lanes, const P: usize, const WHICH: bool>(
     lanes: L,
     pack: &mut Pack<D, P>,
-    motions: &[Block],
-    shifts: &[Block],
+    records: &[Block],
     how: &Sweep,
 ) -> L::Number {
     let zero = lanes.splat(0.0);
     let masses = Pair::<D, L::Number>::load(lanes, pack);
     let normal = D::Axes::load(lanes, &pack.normal);
-    let mut velocities = Two::<D, L::Number>::gather(lanes, pack, motions);
-    let moved = Two::<D, L::Number>::gather(lanes, pack, shifts);
+    let [mut velocities, moved] = Two::<D, L::Number>::gather_both(lanes, pack, records);
     let mut changed = zero;
 
     let per_substep = lanes.splat(how.per_substep);
@@ -270,7 +276,7 @@ pub fn sweep<D: SoftDim, L: Lanes, const P: usize, const WHICH: bool>(
     if WHICH == RELAXING {
         rub(lanes, pack, &mut velocities, &masses, push, twisting, how);
     }
-    velocities.scatter(lanes, pack, motions);
+    velocities.scatter(lanes, pack, records);
     changed
 }
 
@@ -326,11 +332,11 @@ fn firm_or_soft<L: Lanes>(lanes: L, firm: L::Number, if_firm: f32, if_soft: f32)
 
 /// Gives back the approach speed of points that were hit in this step (L5, Newton's law).
 #[inline(always)]
-pub fn rebound<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &mut Pack<D, P>, motions: &[Block]) {
+pub fn rebound<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &mut Pack<D, P>, records: &[Block]) {
     let zero = lanes.splat(0.0);
     let masses = Pair::<D, L::Number>::load(lanes, pack);
     let normal = D::Axes::load(lanes, &pack.normal);
-    let mut velocities = Two::<D, L::Number>::gather(lanes, pack, motions);
+    let mut velocities = Two::<D, L::Number>::gather(lanes, pack, records);
     for point in &mut pack.points {
         let turn_a = D::Turns::load(lanes, &point.turn_a);
         let turn_b = D::Turns::load(lanes, &point.turn_b);
@@ -346,5 +352,5 @@ pub fn rebound<D: SoftDim, L: Lanes, const P: usize>(lanes: L, pack: &mut Pack<D
         let turns = [D::Turns::times(turn_a, change), D::Turns::times(turn_b, change)];
         velocities.push(&masses, D::Axes::times(normal, change), turns[0], turns[1]);
     }
-    velocities.scatter(lanes, pack, motions);
+    velocities.scatter(lanes, pack, records);
 }

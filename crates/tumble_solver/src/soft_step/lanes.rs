@@ -102,11 +102,20 @@ pub trait Lanes: Copy {
     /// Writes.
     fn store(self, number: Self::Number, to: &mut Wide);
 
-    /// Reads the blocks of one body per lane: the k-th number of each block.
-    fn gather(self, blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize) -> [Self::Number; 4];
+    /// Reads the first `K` blocks of one record per lane: the k-th number of each block.
+    fn gather<const R: usize, const K: usize>(
+        self,
+        records: &[[Block; R]],
+        at: &[u32; WIDTH],
+    ) -> [[Self::Number; 4]; K];
 
-    /// Writes them back.
-    fn scatter(self, numbers: [Self::Number; 4], blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize);
+    /// Writes the first `K` blocks back.
+    fn scatter<const R: usize, const K: usize>(
+        self,
+        numbers: [[Self::Number; 4]; K],
+        records: &[[Block; R]],
+        at: &[u32; WIDTH],
+    );
 }
 
 /// All eight, in registers of the widest kind that the machine has.
@@ -158,21 +167,38 @@ impl<S: Simd> Lanes for All<S> {
     }
 
     #[inline(always)]
-    fn gather(self, blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize) -> [f32x8<S>; 4] {
-        let row = |lane: usize| blocks[at[lane] as usize * stride + offset].load(self.0);
-        let [a, b, c, d] = transposed([row(0), row(1), row(2), row(3)]);
-        let [e, f, g, h] = transposed([row(4), row(5), row(6), row(7)]);
-        [a.combine(e), b.combine(f), c.combine(g), d.combine(h)]
+    fn gather<const R: usize, const K: usize>(self, records: &[[Block; R]], at: &[u32; WIDTH]) -> [[f32x8<S>; 4]; K] {
+        let zero = self.splat(0.0);
+        let mut numbers = [[zero; 4]; K];
+        // One look at each index, however many blocks are read there.
+        let of = |lane: usize| &records[at[lane] as usize];
+        let rows = [of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7)];
+        for k in 0..K {
+            let row = |lane: usize| rows[lane][k].load(self.0);
+            let [a, b, c, d] = transposed([row(0), row(1), row(2), row(3)]);
+            let [e, f, g, h] = transposed([row(4), row(5), row(6), row(7)]);
+            numbers[k] = [a.combine(e), b.combine(f), c.combine(g), d.combine(h)];
+        }
+        numbers
     }
 
     #[inline(always)]
-    fn scatter(self, numbers: [f32x8<S>; 4], blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize) {
-        let [(a, e), (b, f), (c, g), (d, h)] =
-            [numbers[0].split(), numbers[1].split(), numbers[2].split(), numbers[3].split()];
-        let (low, high) = (transposed([a, b, c, d]), transposed([e, f, g, h]));
-        for lane in 0..4 {
-            blocks[at[lane] as usize * stride + offset].store(low[lane]);
-            blocks[at[lane + 4] as usize * stride + offset].store(high[lane]);
+    fn scatter<const R: usize, const K: usize>(
+        self,
+        numbers: [[f32x8<S>; 4]; K],
+        records: &[[Block; R]],
+        at: &[u32; WIDTH],
+    ) {
+        let of = |lane: usize| &records[at[lane] as usize];
+        let rows = [of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7)];
+        for k in 0..K {
+            let [x, y, z, w] = numbers[k];
+            let [(a, e), (b, f), (c, g), (d, h)] = [x.split(), y.split(), z.split(), w.split()];
+            let (low, high) = (transposed([a, b, c, d]), transposed([e, f, g, h]));
+            for lane in 0..4 {
+                rows[lane][k].store(low[lane]);
+                rows[lane + 4][k].store(high[lane]);
+            }
         }
     }
 }
@@ -217,12 +243,25 @@ impl Lanes for One {
     }
 
     #[inline(always)]
-    fn gather(self, blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize) -> [f32; 4] {
-        blocks[at[self.0] as usize * stride + offset].get()
+    fn gather<const R: usize, const K: usize>(self, records: &[[Block; R]], at: &[u32; WIDTH]) -> [[f32; 4]; K] {
+        let record = &records[at[self.0] as usize];
+        let mut numbers = [[0.0; 4]; K];
+        for k in 0..K {
+            numbers[k] = record[k].get();
+        }
+        numbers
     }
 
     #[inline(always)]
-    fn scatter(self, numbers: [f32; 4], blocks: &[Block], at: &[u32; WIDTH], stride: usize, offset: usize) {
-        blocks[at[self.0] as usize * stride + offset].set(numbers);
+    fn scatter<const R: usize, const K: usize>(
+        self,
+        numbers: [[f32; 4]; K],
+        records: &[[Block; R]],
+        at: &[u32; WIDTH],
+    ) {
+        let record = &records[at[self.0] as usize];
+        for k in 0..K {
+            record[k].set(numbers[k]);
+        }
     }
 }

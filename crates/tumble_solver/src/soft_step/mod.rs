@@ -95,10 +95,8 @@ const PACKS_FOR_A_THREAD: usize = 32;
 pub struct SoftStep<D: SoftDim> {
     /// How the kernels run.
     pub width: Width,
-    /// Velocities: `BLOCKS` blocks for each body; the world, which nothing moves, is the last.
-    motions: Vec<Block>,
-    /// Displacements within the step.
-    shifts: Vec<Block>,
+    /// Of each body, side by side: velocity and rate of turn, then displacement and turn within the step. The world, which nothing moves, is the last.
+    records: Vec<Block>,
     /// What accelerations add to velocities in a substep.
     gains: Vec<Block>,
     /// Velocities before the step.
@@ -125,8 +123,7 @@ impl<D: SoftDim> Default for SoftStep<D> {
     fn default() -> Self {
         Self {
             width: Width::default(),
-            motions: Vec::new(),
-            shifts: Vec::new(),
+            records: Vec::new(),
             gains: Vec::new(),
             starts: Vec::new(),
             masses: Vec::new(),
@@ -154,12 +151,14 @@ impl<D: SoftDim> std::fmt::Debug for SoftStep<D> {
 /// Velocity and rate of turn, acceleration and angular acceleration: the same two kinds of quantity.
 type Motion<D> = (<D as tumble_math::Dim>::Vector, <D as tumble_math::Dim>::Angular);
 
-fn set<D: SoftDim>(list: &[Block], body: u32, (linear, angular): Motion<D>) {
-    D::pack(One(0), (D::axes(linear), D::turns(angular)), list, &[body; WIDTH]);
+/// Sets velocity and rate of turn of a body.
+fn set<D: SoftDim>(records: &[Block], body: u32, (linear, angular): Motion<D>) {
+    D::pack(One(0), (D::axes(linear), D::turns(angular)), records, &[body; WIDTH]);
 }
 
-fn get<D: SoftDim>(list: &[Block], body: u32) -> Motion<D> {
-    let (linear, angular) = D::unpack(One(0), list, &[body; WIDTH]);
+/// Velocity and rate of turn of a body (0), or displacement and turn (1).
+fn get<D: SoftDim>(records: &[Block], body: u32, which: usize) -> Motion<D> {
+    let (linear, angular) = D::unpack_both(One(0), records, &[body; WIDTH])[which];
     (D::vector(linear), D::angular(angular))
 }
 
@@ -197,19 +196,18 @@ impl<D: SoftDim> SoftStep<D> {
     /// Begins a step: `bodies` as they are before it, the world last.
     pub fn begin(&mut self, bodies: &[SolverBody<D>]) {
         let blocks = bodies.len() * D::BLOCKS;
-        for list in [&mut self.motions, &mut self.shifts, &mut self.gains, &mut self.starts] {
-            list.resize_with(blocks, Block::default);
-        }
-        for (shift, gain) in self.shifts.iter().zip(&self.gains) {
-            shift.set([0.0; 4]);
-            gain.set([0.0; 4]);
-        }
+        self.records.resize_with(2 * blocks, Block::default);
+        self.gains.resize_with(blocks, Block::default);
+        self.starts.resize_with(blocks, Block::default);
         self.masses.resize_with(bodies.len() * D::MASS_BLOCKS, Block::default);
+        self.records.iter().chain(&self.gains).for_each(|block| block.set([0.0; 4]));
         for (i, body) in bodies.iter().enumerate() {
-            let motion = (body.velocity, body.angular_velocity);
-            set::<D>(&self.motions, i as u32, motion);
-            set::<D>(&self.starts, i as u32, motion);
+            set::<D>(&self.records, i as u32, (body.velocity, body.angular_velocity));
             D::pack_masses(body.inverse_mass, body.inverse_inertia, &mut self.masses, i);
+        }
+        let records = self.records.chunks_exact(2 * D::BLOCKS);
+        for (record, starts) in records.zip(self.starts.chunks_exact(D::BLOCKS)) {
+            record.iter().zip(starts).for_each(|(motion, start)| start.set(motion.get()));
         }
         self.colours.begin(bodies.iter().map(moves));
         self.counts = [[0; COLOURS]; ROOM.len()];
@@ -219,7 +217,7 @@ impl<D: SoftDim> SoftStep<D> {
 
     /// Tells what forces do to a body in a step of `dt` cut in `substeps` [m/s²].
     pub fn accelerate(&mut self, body: u32, acceleration: D::Vector, angular: D::Angular, substep: f64) {
-        set::<D>(&self.gains, body, (acceleration * substep, angular * substep));
+        D::put_gain((acceleration * substep, angular * substep), &self.gains, body as usize);
     }
 
     /// The colours of pairs.
@@ -261,7 +259,7 @@ impl<D: SoftDim> SoftStep<D> {
         }
         let pairs: u32 = (0..ROOM.len()).flat_map(colours).map(|colour| colour.pairs).sum();
         self.members = team.size().min(pairs as usize / (WIDTH * PACKS_FOR_A_THREAD)).clamp(1, MEMBERS);
-        let world = (self.motions.len() / D::BLOCKS) as u32 - 1;
+        let world = (self.starts.len() / D::BLOCKS) as u32 - 1;
         self.one.lay_out(colours(0), self.members, world);
         self.two.lay_out(colours(1), self.members, world);
         self.four.lay_out(colours(2), self.members, world);
@@ -308,10 +306,9 @@ impl<D: SoftDim> SoftStep<D> {
         let h = dt / f64::from(settings.substeps);
         let frequency = settings.frequency.min(0.25 / h);
         self.list_jointed(&joints, bodies.len());
-        let Self { motions, shifts, gains, starts, masses, jointed, .. } = self;
+        let Self { records, gains, starts, masses, jointed, .. } = self;
         let shared = Shared {
-            motions,
-            shifts,
+            records,
             gains,
             starts,
             masses,
@@ -331,14 +328,14 @@ impl<D: SoftDim> SoftStep<D> {
         };
         let few = self.one.len() + self.two.len() + self.four.len() <= FEW_PACKS;
         let width = if few && matches!(self.width, Width::Widest) { Width::Plain } else { self.width };
-        let (members, blocks) = (self.members, shared.motions.len());
+        let (members, count) = (self.members, shared.starts.len() / D::BLOCKS);
         let mut held = joints.map(|joints| Held { joints, jointed, bodies });
         let (mut one, mut two, mut four) = (self.one.shares(), self.two.shares(), self.four.shares());
         let shares = (0..members).map(|member| Member {
             one: one.next().expect("every member has a share"),
             two: two.next().expect("every member has a share"),
             four: four.next().expect("every member has a share"),
-            blocks: blocks * member / members..blocks * (member + 1) / members,
+            bodies: count * member / members..count * (member + 1) / members,
             held: held.take(),
         });
         team.together(shares, |member, barrier| run::run(width, member, &shared, barrier));
@@ -348,12 +345,12 @@ impl<D: SoftDim> SoftStep<D> {
 
     /// What contacts and joints changed of the velocity of a body in this step, exactly nothing where there were none [m/s].
     pub fn change(&self, body: u32) -> Motion<D> {
-        get::<D>(&self.motions, body)
+        get::<D>(&self.records, body, 0)
     }
 
     /// What they changed of its place [m] and turn [rad].
     pub fn displacement(&self, body: u32) -> Motion<D> {
-        get::<D>(&self.shifts, body)
+        get::<D>(&self.records, body, 1)
     }
 
     /// The colour of pair number `k`.

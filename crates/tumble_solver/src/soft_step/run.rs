@@ -18,10 +18,8 @@ use crate::joint::Joints;
 
 /// What all members see.
 pub struct Shared<'a> {
-    /// Velocities.
-    pub motions: &'a [Block],
-    /// Displacements within the step.
-    pub shifts: &'a [Block],
+    /// Of each body: velocity and rate of turn, then displacement and turn within the step.
+    pub records: &'a [Block],
     /// What accelerations add to velocities in a substep.
     pub gains: &'a [Block],
     /// Velocities before the step.
@@ -47,8 +45,8 @@ pub struct Member<'a, D: SoftDim> {
     pub one: Share<'a, D, 1>,
     pub two: Share<'a, D, 2>,
     pub four: Share<'a, D, 4>,
-    /// Blocks that it integrates.
-    pub blocks: Range<usize>,
+    /// Bodies that it integrates.
+    pub bodies: Range<usize>,
     /// The joints, which one member holds for all.
     pub held: Option<Held<'a, D>>,
 }
@@ -63,16 +61,16 @@ pub struct Held<'a, D: SoftDim> {
 
 impl<D: SoftDim> Held<'_, D> {
     /// Stops every joint, in double precision.
-    fn stop(&mut self, motions: &[Block]) {
+    fn stop(&mut self, records: &[Block]) {
         for &body in self.jointed {
-            let (linear, angular) = super::get::<D>(motions, body);
+            let (linear, angular) = super::get::<D>(records, body, 0);
             let body = &mut self.bodies[body as usize];
             (body.velocity, body.angular_velocity) = (linear, angular);
         }
         self.joints.block.stop(self.bodies, self.joints.rows);
         for &body in self.jointed {
             let after = &self.bodies[body as usize];
-            super::set::<D>(motions, body, (after.velocity, after.angular_velocity));
+            super::set::<D>(records, body, (after.velocity, after.angular_velocity));
         }
     }
 }
@@ -191,37 +189,58 @@ fn visit<D: SoftDim, L: Lanes, const P: usize>(
     shared: &Shared<'_>,
     changed: &mut Wide,
 ) {
-    let Shared { motions, shifts, how, .. } = shared;
+    let Shared { records, how, .. } = shared;
     match pass {
-        Pass::Prepare => kernel::prepare(lanes, pack, shared.masses, shared.starts),
-        Pass::WarmStart => kernel::warm_start(lanes, pack, motions),
+        Pass::Prepare => kernel::prepare(lanes, pack, shared.masses, records),
+        Pass::WarmStart => kernel::warm_start(lanes, pack, records),
         Pass::Biased => {
-            kernel::sweep::<D, L, P, BIASED>(lanes, pack, motions, shifts, how);
+            kernel::sweep::<D, L, P, BIASED>(lanes, pack, records, how);
         }
         Pass::Relaxing => {
-            let change = kernel::sweep::<D, L, P, RELAXING>(lanes, pack, motions, shifts, how);
+            let change = kernel::sweep::<D, L, P, RELAXING>(lanes, pack, records, how);
             lanes.store(lanes.load(changed).larger(change), changed);
         }
-        Pass::Rebound => kernel::rebound(lanes, pack, motions),
+        Pass::Rebound => kernel::rebound(lanes, pack, records),
     }
+}
+
+/// A record's velocity and displacement blocks, with those that belong to it in other lists.
+#[inline(always)]
+fn records<'a, D: SoftDim>(
+    shared: &Shared<'a>,
+    bodies: Range<usize>,
+) -> impl Iterator<Item = (&'a Block, &'a Block, &'a Block, &'a Block)> {
+    let n = D::BLOCKS;
+    let records = shared.records[2 * n * bodies.start..2 * n * bodies.end].chunks_exact(2 * n);
+    let others = n * bodies.start..n * bodies.end;
+    let others = shared.gains[others.clone()].chunks_exact(n).zip(shared.starts[others].chunks_exact(n));
+    records.zip(others).flat_map(move |(record, (gains, starts))| {
+        let (motions, shifts) = record.split_at(n);
+        motions
+            .iter()
+            .zip(shifts)
+            .zip(gains)
+            .zip(starts)
+            .map(|(((motion, shift), gain), start)| (motion, shift, gain, start))
+    })
 }
 
 #[inline(always)]
 fn substeps<D: SoftDim, W: Way>(way: W, mut member: Member<'_, D>, shared: &Shared<'_>, barrier: &Barrier) {
-    let Shared { motions, shifts, gains, starts, .. } = shared;
-    let blocks = member.blocks.clone();
+    let bodies = member.bodies.clone();
     let mut changed = Wide::default();
     packs(way, Pass::Prepare, &mut member, shared, &mut changed, || {});
+    barrier.wait();
     for _ in 0..shared.substeps {
-        for k in blocks.clone() {
-            way.add(&motions[k], &gains[k], 1.0);
+        for (motion, _, gain, _) in records::<D>(shared, bodies.clone()) {
+            way.add(motion, gain, 1.0);
         }
         barrier.wait();
         colours(way, Pass::WarmStart, &mut member, shared, barrier, &mut changed);
         colours(way, Pass::Biased, &mut member, shared, barrier, &mut changed);
         hold(&mut member, shared, barrier);
-        for k in blocks.clone() {
-            way.add(&shifts[k], &motions[k], shared.substep);
+        for (motion, shift, ..) in records::<D>(shared, bodies.clone()) {
+            way.add(shift, motion, shared.substep);
         }
         barrier.wait();
         changed = Wide::default();
@@ -236,15 +255,15 @@ fn substeps<D: SoftDim, W: Way>(way: W, mut member: Member<'_, D>, shared: &Shar
     // Numbers that are not negative are in the order of their bits.
     shared.changed.fetch_max(most.to_bits(), Ordering::Relaxed);
     // What remains is what contacts and joints changed: the same sums without them are taken away.
-    for k in blocks {
-        let (motion, shift) = (Block::default(), Block::default());
-        motion.set(starts[k].get());
+    for (motion, shift, gain, start) in records::<D>(shared, bodies) {
+        let (free_motion, free_shift) = (Block::default(), Block::default());
+        free_motion.set(start.get());
         for _ in 0..shared.substeps {
-            way.add(&motion, &gains[k], 1.0);
-            way.add(&shift, &motion, shared.substep);
+            way.add(&free_motion, gain, 1.0);
+            way.add(&free_shift, &free_motion, shared.substep);
         }
-        way.add(&motions[k], &motion, -1.0);
-        way.add(&shifts[k], &shift, -1.0);
+        way.add(motion, &free_motion, -1.0);
+        way.add(shift, &free_shift, -1.0);
     }
 }
 
@@ -288,7 +307,7 @@ fn packs<D: SoftDim, W: Way>(
 #[inline(always)]
 fn hold<D: SoftDim>(member: &mut Member<'_, D>, shared: &Shared<'_>, barrier: &Barrier) {
     if let Some(held) = &mut member.held {
-        held.stop(shared.motions);
+        held.stop(shared.records);
     }
     if shared.joints {
         barrier.wait();
