@@ -23,6 +23,8 @@ pub struct Collider<D: Geometry> {
     pub shape: D::Shape,
     /// Largest distance of the shape from the centre of mass; 0 for a shape without bounds [m].
     pub extent: f64,
+    /// Radius of a ball around the centre of mass that holds the shape; infinite for a shape without bounds [m].
+    pub bounding_radius: f64,
     /// Its surface.
     pub material: MaterialId,
     /// Whether it pushes back.
@@ -118,6 +120,7 @@ pub(crate) fn prepare_colliders<D: Geometry>(world: &mut World) {
                 body: body as u32,
                 part: number as u32,
                 extent: D::extent(&shape).unwrap_or(0.0),
+                bounding_radius: D::extent(&shape).unwrap_or(f64::INFINITY),
                 shape,
                 material: part.material,
                 response: part.response,

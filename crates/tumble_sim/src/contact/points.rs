@@ -104,7 +104,9 @@ impl<D: Geometry> Look<'_, D> {
         memory: &mut D::PerPoint<PointMemory<D::Vector>>,
         reuse: Option<&mut ContactReuse<D>>,
     ) {
-        if !pair.touching && self.are_apart(pair) {
+        let bodies = pair.bodies.map(|body| &self.motions[body as usize]);
+        let margin = bodies[0].reach + bodies[1].reach;
+        if !pair.touching && (self.balls_are_apart(pair, bodies, margin) || self.boxes_are_apart(pair)) {
             if !D::points(manifold).is_empty() {
                 *manifold = D::Manifold::default();
                 if let Some(reuse) = reuse {
@@ -113,8 +115,6 @@ impl<D: Geometry> Look<'_, D> {
             }
             return;
         }
-        let bodies = pair.bodies.map(|body| &self.motions[body as usize]);
-        let margin = bodies[0].reach + bodies[1].reach;
         match reuse {
             Some(reuse) if reuse.holds(bodies, margin, self.reuse_tolerance) => {
                 reuse.carry(manifold, bodies);
@@ -152,8 +152,16 @@ impl<D: Geometry> Look<'_, D> {
         }
     }
 
-    /// Whether the parts are too far from each other to touch: fat bounds overlap long before.
-    fn are_apart(&self, pair: &ContactPair) -> bool {
+    /// Whether balls around the parts are too far from each other for the parts to come near: fat bounds overlap long before.
+    fn balls_are_apart(&self, pair: &ContactPair, [a, b]: [&BodyMotion<D>; 2], margin: f64) -> bool {
+        let radius = |collider: u32| self.colliders[collider as usize].bounding_radius;
+        let reach = radius(pair.colliders[0]) + radius(pair.colliders[1]) + margin;
+        let between = b.pose.position - a.pose.position;
+        between.dot(between) > reach * reach
+    }
+
+    /// The same of boxes that turn with them.
+    fn boxes_are_apart(&self, pair: &ContactPair) -> bool {
         let boxes = pair.colliders.map(|collider| self.boxes[collider as usize].as_ref());
         matches!(boxes, [Some(a), Some(b)] if !a.overlaps(b))
     }

@@ -292,10 +292,10 @@ fn remember_outcomes<D: Geometry>(solved: &SoftStep<D>, team: &Team, pairs: &mut
         team.share(chunks.enumerate(), |(chunk, (((pairs, manifolds), memories), reuses))| {
             let pairs = pairs.iter_mut().zip(manifolds).zip(memories).zip(reuses);
             for (k, (((pair, manifold), memory), reuse)) in pairs.enumerate() {
-                if !pushes(pair, manifold) {
+                let number = first + chunk * PAIRS_OF_A_TASK + k;
+                if !solved.acts(number) {
                     continue;
                 }
-                let number = first + chunk * PAIRS_OF_A_TASK + k;
                 let outcome = solved.outcome(number);
                 pair.colour = solved.colour(number);
                 reuse.twist = outcome.twist();
@@ -357,7 +357,7 @@ fn note_rows<D: Geometry>(
     substep: f64,
 ) {
     for (number, (entity, pair, manifold, memory, _)) in pairs.iter().enumerate() {
-        if !pushes(pair, manifold) {
+        if !solved.acts(number) {
             continue;
         }
         let frame = D::contact_frame(D::normal(&manifold.0));

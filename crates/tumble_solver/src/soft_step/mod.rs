@@ -88,7 +88,7 @@ const SLOW_SLIP: f64 = 1.0;
 
 /// So few packs are sooner done lane by lane: most of their lanes have no pair [1].
 const FEW_PACKS: usize = 1;
-/// Fewer packs than this for each thread are not worth waking it [1].
+/// Fewer packs of a colour than this for each thread, on average, are not worth the barrier behind it [1].
 const PACKS_FOR_A_THREAD: usize = 32;
 
 /// The model with its scratch space.
@@ -258,7 +258,8 @@ impl<D: SoftDim> SoftStep<D> {
             ranks[colour.number] = rank as u8;
         }
         let pairs: u32 = (0..ROOM.len()).flat_map(colours).map(|colour| colour.pairs).sum();
-        self.members = team.size().min(pairs as usize / (WIDTH * PACKS_FOR_A_THREAD)).clamp(1, MEMBERS);
+        let worth = pairs as usize / (WIDTH * PACKS_FOR_A_THREAD * used.count_ones().max(1) as usize);
+        self.members = team.size().min(worth).clamp(1, MEMBERS);
         let world = (self.starts.len() / D::BLOCKS) as u32 - 1;
         self.one.lay_out(colours(0), self.members, world);
         self.two.lay_out(colours(1), self.members, world);
@@ -351,6 +352,12 @@ impl<D: SoftDim> SoftStep<D> {
     /// What they changed of its place [m] and turn [rad].
     pub fn displacement(&self, body: u32) -> Motion<D> {
         get::<D>(&self.records, body, 1)
+    }
+
+    /// Whether pair number `k` was announced.
+    #[inline]
+    pub fn acts(&self, k: usize) -> bool {
+        self.places[k].member != NOBODY
     }
 
     /// The colour of pair number `k`.

@@ -244,11 +244,11 @@ fn repeated<D: SoftDim>(problem: &Problem<D>, times: usize) -> Problem<D> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 8, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 4, ..ProptestConfig::default() })]
 
     #[test]
     fn every_team_gives_the_bits_of_one_thread(planar in planar_problem(), spatial in spatial_problem()) {
-        let (planar, spatial) = (repeated(&planar, 100), repeated(&spatial, 100));
+        let (planar, spatial) = (repeated(&planar, 400), repeated(&spatial, 400));
         let alone = (step(&planar, Width::Widest), step(&spatial, Width::Widest));
         for threads in 2..=4 {
             let team = Team::new(threads).unwrap();
