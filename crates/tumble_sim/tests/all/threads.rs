@@ -3,9 +3,9 @@
 use crate::support::{block, body, every, floor, rod, rough, simulation, under};
 use tumble_sim::{ContactModel, Simulation};
 
-const ROWS: u32 = 30;
+const ROWS: u32 = 56;
 
-/// A pyramid of boxes with rods falling on it: more than a thousand near pairs, so that threads share.
+/// A pyramid of boxes with rods falling on it: more than four thousand contacts, so that threads share all that they can.
 fn pyramid(threads: usize, order: impl Fn(&mut Vec<(f64, f64, u64)>)) -> Simulation {
     let mut simulation = simulation(under(ContactModel::SoftStep, every(1.0 / 60.0)), rough(0.6, 0.5));
     simulation.set_threads(threads).unwrap();
@@ -24,7 +24,7 @@ fn pyramid(threads: usize, order: impl Fn(&mut Vec<(f64, f64, u64)>)) -> Simulat
     for k in 0..20_u64 {
         let x = 1.4 * k as f64;
         rod(1.5, 2.0)
-            .at(x, 32.0)
+            .at(2.0 * x, 58.0)
             .turned(0.3 * k as f64)
             .moving(0.0, -9.0)
             .id(5000 + k)
@@ -35,7 +35,7 @@ fn pyramid(threads: usize, order: impl Fn(&mut Vec<(f64, f64, u64)>)) -> Simulat
 
 /// All bodies in the order of their names, bit by bit.
 fn run(mut simulation: Simulation) -> Vec<[u64; 5]> {
-    for _ in 0..90 {
+    for _ in 0..50 {
         simulation.step().unwrap();
     }
     let mut names = crate::support::names(&simulation);
