@@ -61,13 +61,13 @@ impl<D: Geometry> Default for BodyMotion<D> {
 impl<D: Geometry> BodyMotion<D> {
     /// A point of the world in the body's frame [m].
     #[inline]
-    pub(super) fn to_body(&self, point: D::Vector) -> D::Vector {
+    pub(super) fn in_body(&self, point: D::Vector) -> D::Vector {
         self.axes.apply_transposed(point - self.pose.position)
     }
 
     /// A point of the body in the world's frame [m].
     #[inline]
-    pub(super) fn to_world(&self, point: D::Vector) -> D::Vector {
+    pub(super) fn in_world(&self, point: D::Vector) -> D::Vector {
         self.pose.position + self.axes.apply(point)
     }
 }

@@ -54,11 +54,11 @@ impl<D: Geometry> ContactReuse<D> {
         let normal = D::normal(found);
         for (anchors, point) in self.anchors.as_mut().iter_mut().zip(D::points(found)) {
             let half = normal * (0.5 * point.separation);
-            *anchors = [a.to_body(point.point - half), b.to_body(point.point + half)];
+            *anchors = [a.in_body(point.point - half), b.in_body(point.point + half)];
         }
         let twist = if D::points(found).is_empty() { 0.0 } else { self.twist };
         *self = Self {
-            centre: a.to_body(b.pose.position),
+            centre: a.in_body(b.pose.position),
             turn: b.pose.rotation.seen_from(&a.pose.rotation),
             reach,
             margin,
@@ -71,7 +71,7 @@ impl<D: Geometry> ContactReuse<D> {
     /// Whether they are still good: the bodies have hardly moved against each other, and nobody looks farther.
     #[inline]
     pub(super) fn holds(&self, [a, b]: [&BodyMotion<D>; 2], margin: f64, tolerance: f64) -> bool {
-        let moved = a.to_body(b.pose.position) - self.centre;
+        let moved = a.in_body(b.pose.position) - self.centre;
         let strayed = b.pose.rotation.strayed(&a.pose.rotation, &self.turn);
         let squared = tolerance * tolerance;
         margin <= self.margin && moved.dot(moved) <= squared && self.reach * self.reach * strayed <= squared
@@ -83,7 +83,7 @@ impl<D: Geometry> ContactReuse<D> {
         let normal = a.axes.apply(self.normal);
         D::carry(manifold, normal, |number| {
             let [on_a, on_b] = self.anchors.as_ref()[number];
-            let (on_a, on_b) = (a.to_world(on_a), b.to_world(on_b));
+            let (on_a, on_b) = (a.in_world(on_a), b.in_world(on_b));
             ((on_a + on_b) * 0.5, normal.dot(on_b - on_a))
         });
     }
