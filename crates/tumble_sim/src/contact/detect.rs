@@ -78,6 +78,8 @@ pub struct Detection<D: Geometry> {
     broad: BroadPhase<D::Vector>,
     changes: PairChanges,
     pub(super) motions: Vec<BodyMotion<D>>,
+    /// A ball around each part that holds all that it can reach in the next step.
+    pub(super) balls: Vec<Ball<D::Vector>>,
     /// Where each part may be until the end of the next step; `None` for a part without bounds.
     pub(super) boxes: Vec<Option<D::OrientedBox>>,
     /// The same with the margins of fat volumes: two parts are a pair while both overlap.
@@ -86,6 +88,22 @@ pub struct Detection<D: Geometry> {
     pairs: Vec<NearPair>,
     ranks: Ranks,
     pub(super) touches: Vec<Touch>,
+}
+
+/// A ball.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ball<V> {
+    centre: V,
+    radius: f64,
+}
+
+impl<V: Linear> Ball<V> {
+    /// Whether two balls have no point in common.
+    #[inline]
+    pub(super) fn is_apart_from(&self, other: &Self) -> bool {
+        let (between, reach) = (other.centre - self.centre, self.radius + other.radius);
+        between.dot(between) > reach * reach
+    }
 }
 
 /// A near pair and its entity.
@@ -113,6 +131,7 @@ impl<D: Geometry> Default for Detection<D> {
             broad: BroadPhase::new(),
             changes: PairChanges::default(),
             motions: Vec::new(),
+            balls: Vec::new(),
             boxes: Vec::new(),
             fat_boxes: Vec::new(),
             pairs: Vec::new(),
@@ -185,6 +204,7 @@ pub fn find_pairs<D: Geometry>(
         return;
     }
     detection.motions.resize_with(table.entries().len(), BodyMotion::default);
+    detection.balls.resize(colliders.as_slice().len(), Ball { centre: D::Vector::ZERO, radius: f64::INFINITY });
     detection.boxes.resize(colliders.as_slice().len(), None);
     detection.fat_boxes.resize(colliders.as_slice().len(), None);
     let fat_margin = FAT_MARGIN * settings.length_scale;
@@ -216,6 +236,11 @@ pub fn find_pairs<D: Geometry>(
             reach: if unmoved { motion.reach } else { reach },
             boxed: if near { motion.boxed } else { (pose, reach) },
         };
+        let reach_now = motion.reach;
+        for part in parts.clone() {
+            let radius = colliders.as_slice()[part].bounding_radius + reach_now;
+            detection.balls[part] = Ball { centre: pose.position, radius };
+        }
         if near {
             continue;
         }
@@ -340,7 +365,7 @@ pub(crate) fn renumber_pairs<D: Geometry>(world: &mut World) {
     let mut pairs = Vec::new();
     for (entity, pair) in renumbered {
         if let Some(mut known) = world.get_mut::<ContactPair>(entity) {
-            *known = ContactPair { touching: known.touching, ..pair };
+            *known = ContactPair { touching: known.touching, points: known.points, ..pair };
         }
         // Their shapes may be others now.
         if let Some(mut reuse) = world.get_mut::<ContactReuse<D>>(entity) {
@@ -465,6 +490,7 @@ fn new_pair<D: Geometry>(
         surface: materials.surface(a.material, b.material),
         response: if sensor { Response::Sensor } else { Response::Solid },
         touching: false,
+        points: 0,
         colour: PairColour::NONE,
     }
 }

@@ -38,6 +38,8 @@ pub struct ContactPair {
     pub response: Response,
     /// Whether some point touches.
     pub touching: bool,
+    /// Number of its contact points.
+    pub(crate) points: u8,
     /// When soft steps solve the pair.
     pub(crate) colour: PairColour,
 }

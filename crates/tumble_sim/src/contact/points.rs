@@ -8,7 +8,7 @@ use bevy_ecs::prelude::*;
 use tumble_collision::TurningBox;
 use tumble_math::Linear;
 
-use super::detect::BodyMotion;
+use super::detect::{Ball, BodyMotion};
 use super::reuse::REUSE_TOLERANCE;
 use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, Detection, IN_TABLES};
 use super::{ContactReuse, PointMemory, Touch, TouchPhase};
@@ -48,6 +48,7 @@ pub fn find_contacts<D: Geometry>(
         settings: &settings,
         colliders: colliders.as_slice(),
         motions: &detection.motions,
+        balls: &detection.balls,
         boxes: &detection.boxes,
         touch_tolerance,
         keep_tolerance: touch_tolerance.max(KEEP_TOLERANCE * settings.slop()),
@@ -85,6 +86,7 @@ struct Look<'a, D: Geometry> {
     settings: &'a Settings<D>,
     colliders: &'a [Collider<D>],
     motions: &'a [BodyMotion<D>],
+    balls: &'a [Ball<D::Vector>],
     boxes: &'a [Option<D::OrientedBox>],
     touch_tolerance: f64,
     keep_tolerance: f64,
@@ -104,10 +106,8 @@ impl<D: Geometry> Look<'_, D> {
         memory: &mut D::PerPoint<PointMemory<D::Vector>>,
         reuse: Option<&mut ContactReuse<D>>,
     ) {
-        let bodies = pair.bodies.map(|body| &self.motions[body as usize]);
-        let margin = bodies[0].reach + bodies[1].reach;
-        if !pair.touching && (self.balls_are_apart(pair, bodies, margin) || self.boxes_are_apart(pair)) {
-            if !D::points(manifold).is_empty() {
+        if !pair.touching && (self.balls_are_apart(pair) || self.boxes_are_apart(pair)) {
+            if std::mem::take(&mut pair.points) > 0 {
                 *manifold = D::Manifold::default();
                 if let Some(reuse) = reuse {
                     *reuse = ContactReuse::default();
@@ -115,6 +115,8 @@ impl<D: Geometry> Look<'_, D> {
             }
             return;
         }
+        let bodies = pair.bodies.map(|body| &self.motions[body as usize]);
+        let margin = bodies[0].reach + bodies[1].reach;
         match reuse {
             Some(reuse) if reuse.holds(bodies, margin, self.reuse_tolerance) => {
                 reuse.carry(manifold, bodies);
@@ -134,6 +136,7 @@ impl<D: Geometry> Look<'_, D> {
                 *manifold = found;
             }
         }
+        pair.points = D::points(manifold).len() as u8;
         let (mut touching, mut hopped) = (false, true);
         for (point, memory) in D::points(manifold).iter().zip(memory.as_mut()) {
             let reach = if memory.touches { self.keep_tolerance } else { self.touch_tolerance };
@@ -153,11 +156,10 @@ impl<D: Geometry> Look<'_, D> {
     }
 
     /// Whether balls around the parts are too far from each other for the parts to come near: fat bounds overlap long before.
-    fn balls_are_apart(&self, pair: &ContactPair, [a, b]: [&BodyMotion<D>; 2], margin: f64) -> bool {
-        let radius = |collider: u32| self.colliders[collider as usize].bounding_radius;
-        let reach = radius(pair.colliders[0]) + radius(pair.colliders[1]) + margin;
-        let between = b.pose.position - a.pose.position;
-        between.dot(between) > reach * reach
+    #[inline]
+    fn balls_are_apart(&self, pair: &ContactPair) -> bool {
+        let [a, b] = pair.colliders.map(|collider| &self.balls[collider as usize]);
+        a.is_apart_from(b)
     }
 
     /// The same of boxes that turn with them.

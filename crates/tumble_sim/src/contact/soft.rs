@@ -99,11 +99,6 @@ type SoftBodies<'w, 's, D> = Query<
     Awake,
 >;
 
-/// Whether the points of a pair push.
-fn pushes<D: Geometry>(pair: &ContactPair, manifold: &ContactManifold<D>) -> bool {
-    pair.response == Response::Solid && !D::points(&manifold.0).is_empty()
-}
-
 /// Takes the substeps: contacts and joints change the velocities, and what else they displace is left for the move.
 pub fn take_soft_steps<D: Geometry>(
     (clock, settings, threads): (Res<Clock>, Res<Settings<D>>, Res<Threads>),
@@ -143,18 +138,11 @@ pub fn take_soft_steps<D: Geometry>(
 
     acting.clear();
     let mut row = 0;
-    for (_, pairs, manifolds, ..) in pairs.contiguous_iter_mut().expect(IN_TABLES) {
-        let (pairs, _) = ContiguousMut::split(pairs);
-        for (pair, manifold) in pairs.iter_mut().zip(manifolds) {
-            if pushes(pair, manifold) {
-                let ContactPair { colliders, bodies, colour, .. } = *pair;
-                acting.push(Acting {
-                    row,
-                    parts: colliders,
-                    bodies,
-                    points: D::points(&manifold.0).len() as u8,
-                    colour,
-                });
+    for (_, pairs, ..) in pairs.contiguous_iter_mut().expect(IN_TABLES) {
+        for pair in ContiguousMut::split(pairs).0 {
+            if pair.points > 0 && pair.response == Response::Solid {
+                let ContactPair { colliders, bodies, points, colour, .. } = *pair;
+                acting.push(Acting { row, parts: colliders, bodies, points, colour });
             } else if model.colours().know(pair.colour) {
                 model.colours().release(pair.bodies, pair.colour);
                 pair.colour = PairColour::NONE;
