@@ -5,6 +5,7 @@ mod contacts_in_space;
 mod driven_in_space;
 mod laws;
 mod ledger;
+mod rattleback;
 mod rolling_in_space;
 mod sleep;
 mod soft_step;
