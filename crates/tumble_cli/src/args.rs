@@ -136,7 +136,7 @@ pub struct CompareArguments {
     /// Contact models; default: all for which the scene claims something, or simply all if it claims nothing
     #[arg(long, value_name = "MODEL,…", value_delimiter = ',', value_parser = contact_model())]
     pub contact: Vec<ContactModel>,
-    /// Time steps [s]; default: the scene's
+    /// Time steps [s], up to four for several models, drawn from broad to fine; default: the scene's
     #[arg(long, value_name = "S,…", value_delimiter = ',', value_parser = seconds, allow_hyphen_values = true)]
     pub dt: Vec<f64>,
     /// Measure how far bodies are from where this model has them, with a sixteenth of the smallest step;

@@ -40,12 +40,54 @@ pub enum Strokes {
     Solid,
     /// Each with dashes of its own, so that of curves that coincide each shows through the gaps of those above it.
     Dashed,
+    /// Families of neighbours that share a colour and its dashes. Within a family curves get finer and darker from the first to the last, and
+    /// finer ones are drawn over broader ones.
+    Families {
+        /// Curves of each family, at least 1 and told apart up to [`MOST_BREADTHS`] [1].
+        size: usize,
+    },
 }
 
+/// Most curves of a family in a plot; more breadths could not be told apart.
+pub const MOST_BREADTHS: usize = 4;
+
 impl Strokes {
+    /// Curves of a family; a curve by itself is a family of one.
+    fn family_size(self) -> usize {
+        match self {
+            Self::Solid | Self::Dashed => 1,
+            Self::Families { size } => size.max(1),
+        }
+    }
+
+    /// Family of a curve.
+    fn family(self, index: usize) -> usize {
+        index / self.family_size()
+    }
+
+    /// Finer curves that follow in the family of a curve.
+    fn finer(self, index: usize) -> usize {
+        self.family_size() - 1 - index % self.family_size()
+    }
+
     /// Lengths of a dash and of the gap after it for one of the curves [px]; none where it is solid.
     fn dashes(self, index: usize) -> Option<(u32, u32)> {
-        (self == Self::Dashed).then(|| DASHES[index % DASHES.len()]).flatten()
+        if self == Self::Solid { None } else { DASHES[self.family(index) % DASHES.len()] }
+    }
+
+    /// Colour and width of a curve.
+    fn style(self, index: usize) -> ShapeStyle {
+        let finer = self.finer(index) as u32;
+        let color = COLORS[self.family(index) % COLORS.len()];
+        // What is broad is pale, so that a finer line on it is seen.
+        let opacity = if finer == 0 { 1.0 } else { 0.4 };
+        color.mix(opacity).stroke_width(fine(CURVE_WIDTH + BREADTH * finer))
+    }
+
+    /// The curves in the order in which they are drawn.
+    fn drawn(self, count: usize) -> impl Iterator<Item = usize> {
+        let broadest_first = (0..self.family_size()).rev();
+        broadest_first.flat_map(move |finer| (0..count).filter(move |&index| self.finer(index) == finer))
     }
 }
 
@@ -66,8 +108,10 @@ const DASHES: [Option<(u32, u32)>; 12] = [
 ];
 /// Length of dashed curves beyond which dashes would only fill the file; they are solid then [px].
 const LONGEST_DASHED: f64 = 20_000.0;
-/// Width of a curve [px].
+/// Width of the finest curve of a family [px].
 const CURVE_WIDTH: u32 = 2;
+/// By how much the next broader curve of a family is wider [px].
+const BREADTH: u32 = 4;
 /// Length of the piece of a curve in the legend [px].
 const LEGEND_PIECE: i32 = 52;
 /// Size of the picture [px].
@@ -160,9 +204,9 @@ impl Plot {
             .y_label_area_size(fine(62))
             .build_cartesian_2d(times.0..times.1, values.0..values.1)?;
         self.draw_axes(&mut chart, times, values)?;
-        for (index, series) in self.series.iter().enumerate() {
-            let style = self.style(index);
-            for stretch in finite_stretches(series) {
+        for index in self.strokes.drawn(self.series.len()) {
+            let style = self.strokes.style(index);
+            for stretch in finite_stretches(&self.series[index]) {
                 // A lone point has no line; a short dash keeps it visible.
                 let width = if stretch.len() == 1 { (times.1 - times.0) * 0.004 } else { 0.0 };
                 let dash = stretch.last().map(|&(time, value)| (time + width, value)).filter(|_| width > 0.0);
@@ -218,23 +262,20 @@ impl Plot {
         LEGEND_PIECE as u32 + 20 + 8 * longest as u32 + 12
     }
 
-    fn style(&self, index: usize) -> ShapeStyle {
-        ShapeStyle::from(&COLORS[index % COLORS.len()]).stroke_width(fine(CURVE_WIDTH))
-    }
-
     fn draw_legend(&self, legend: &Page<'_>) -> DrawResult {
-        let style: TextStyle<'_> =
+        let text: TextStyle<'_> =
             (FONT, fine(15)).into_text_style(legend).color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
         for (index, series) in self.series.iter().enumerate() {
             let y = 66 + 24 * index as i32;
             let piece = [point(6, y), point(6 + LEGEND_PIECE, y)];
-            let thick = self.style(index).stroke_width(fine(CURVE_WIDTH + 1));
+            let style = self.strokes.style(index);
+            let thick = style.stroke_width(style.stroke_width + fine(1));
             match self.strokes.dashes(index) {
                 Some((dash, gap)) => legend.draw(&DashedPathElement::new(piece, fine(dash), fine(gap), thick))?,
                 None => legend.draw(&PathElement::new(piece, thick))?,
             }
             let label = point(14 + LEGEND_PIECE, y);
-            legend.draw(&Text::new(clean(&series.label, LABEL_LETTERS), label, style.clone()))?;
+            legend.draw(&Text::new(clean(&series.label, LABEL_LETTERS), label, text.clone()))?;
         }
         Ok(())
     }

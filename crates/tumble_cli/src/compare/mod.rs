@@ -9,7 +9,7 @@ mod words;
 
 use std::path::Path;
 
-use tumble_record::plot::{Plot, Strokes};
+use tumble_record::plot::{MOST_BREADTHS, Plot, Strokes};
 use tumble_record::{Channel, Completeness, MOST_CURVES, OutputFolder, Recording, Series};
 use tumble_scene::expect::watched_steps;
 use tumble_scene::format::ContactModel;
@@ -48,7 +48,7 @@ fn compare_loaded<D: SceneDim>(
     if !loaded.warnings.is_empty() {
         tell(loaded.warnings.render(stderr_color()));
     }
-    let Chosen { cases, left_out } = choose(arguments, loaded)?;
+    let Chosen { cases, left_out, strokes } = choose(arguments, loaded)?;
     let name = source.stem().to_string_lossy().into_owned();
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new(OUT).join(&name).join("compare"));
     let folder = OutputFolder::new(folder);
@@ -106,12 +106,7 @@ fn compare_loaded<D: SceneDim>(
     }
     page.line(words::best(&rows, several_steps, words::Promises::of(&loaded.scene)));
     page.line("");
-    let plot = Plot {
-        title: format!("{name}  ·  {}", channel.title()),
-        value_label,
-        series: curves,
-        strokes: Strokes::Dashed,
-    };
+    let plot = Plot { title: format!("{name}  ·  {}", channel.title()), value_label, series: curves, strokes };
     let mut files = folder.prepare(Completeness::Whole)?;
     files.add("compare.csv", |out| words::write_csv(&rows, out))?;
     files.add("compare.svg", |out| out.write_all(plot.to_svg().as_bytes()))?;
@@ -152,6 +147,8 @@ struct Chosen {
     cases: Vec<Case>,
     /// Models that nobody asked for and that the scene claims nothing for.
     left_out: Vec<ContactModel>,
+    /// How the curves are drawn: several models with a few steps in a colour for each model, broad to fine in the order of the steps.
+    strokes: Strokes,
 }
 
 fn choose<D: SceneDim>(arguments: &CompareArguments, loaded: &Loaded<D>) -> Result<Chosen, Failure> {
@@ -169,11 +166,17 @@ fn choose<D: SceneDim>(arguments: &CompareArguments, loaded: &Loaded<D>) -> Resu
     let steps = if arguments.dt.is_empty() { vec![scene.dt] } else { arguments.dt.clone() };
     let cases: Vec<Case> =
         models.iter().flat_map(|&contact| steps.iter().map(move |&dt| Case { contact, dt })).collect();
+    if models.len() > 1 && (2..=MOST_BREADTHS).contains(&steps.len()) {
+        return Ok(Chosen { cases, left_out, strokes: Strokes::Families { size: steps.len() } });
+    }
     if cases.len() > MOST_CURVES {
-        let message = format!("{} runs cannot be told apart in one plot: at most {MOST_CURVES}", cases.len());
+        let message = format!(
+            "{} runs cannot be told apart in one plot: at most {MOST_BREADTHS} time steps of several models, or {MOST_CURVES} runs in all",
+            cases.len()
+        );
         return Err(Failure::Arguments(message));
     }
-    Ok(Chosen { cases, left_out })
+    Ok(Chosen { cases, left_out, strokes: Strokes::Dashed })
 }
 
 /// Refuses a list with a value that stands in it twice.

@@ -215,6 +215,29 @@ fn curves_that_coincide_have_dashes_of_their_own() {
 }
 
 #[test]
+fn every_model_with_several_steps_is_drawn_in_its_colour_broad_to_fine() {
+    let bench = Bench::new();
+    bench.write("falling.ron", FALLING);
+    bench.tumble(["compare", "falling.ron", "--dt", "0.02,0.01,0.005,0.0025"]).code(0).says("20 runs");
+    let svg = bench.read("out/falling/compare/compare.svg");
+    let lines: Vec<&str> = svg.lines().filter(|line| line.starts_with("<polyline")).collect();
+    // Eight units to a pixel; colours of the five models.
+    for color in ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"] {
+        let of_model = lines.iter().filter(|line| line.contains(&format!("stroke=\"{color}\"")));
+        let widths: Vec<&str> =
+            of_model.filter_map(|line| line.split_once("stroke-width=\"")?.1.split('"').next()).collect();
+        let first =
+            |width: &str| widths.iter().position(|is| *is == width).unwrap_or_else(|| panic!("{color}: {widths:?}"));
+        let order = ["112", "80", "48", "16"].map(first);
+        assert!(order.is_sorted(), "{color}: broad ones are drawn before fine ones, {order:?}");
+    }
+    // The lowest entry of the legend is inside the picture of 540 px, beside its piece.
+    let label = svg.lines().zip(svg.lines().skip(1)).find(|(_, text)| text.contains("soft-step at 0.0025 s"));
+    let y = label.and_then(|(tag, _)| tag.split_once(" y=\"")?.1.split('"').next()?.parse::<f64>().ok());
+    assert!(y.is_some_and(|y| y < 8.0 * 530.0), "{label:?}");
+}
+
+#[test]
 fn what_cannot_be_written_leaves_nothing() {
     let bench = Bench::new();
     bench.write("falling.ron", FALLING);

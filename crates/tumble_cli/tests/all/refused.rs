@@ -60,8 +60,8 @@ fn wrong_arguments_are_refused_by_name() {
         (&["compare", "falling.ron", "--dt", "0.01,0.02,0.010"], "--dt: 0.01 is given twice"),
         (&["compare", "falling.ron", "--contact", "impulse,impulse"], "--contact: impulse is given twice"),
         (
-            &["compare", "falling.ron", "--dt", "0.01,0.02,0.03,0.04"],
-            "20 runs cannot be told apart in one plot: at most 12",
+            &["compare", "falling.ron", "--dt", "0.01,0.02,0.03,0.04,0.05"],
+            "25 runs cannot be told apart in one plot: at most 4 time steps of several models, or 12 runs in all",
         ),
         (&["compare", "falling.ron", "--out", ""], "a value is required"),
         (&["compare", "falling.ron", "--dt", "0.01,1"], "is shorter than one step of 1 s"),
@@ -70,8 +70,8 @@ fn wrong_arguments_are_refused_by_name() {
         (&["compare", "falling.ron", "--plot", "y:bal"], "there is no body `bal` (did you mean `ball`?)"),
         (&["compare", "falling.ron", "--plot", "joint_force:pin"], "there is no joint `pin`; joints: none"),
         (
-            &["compare", "falling.ron", "--dt", "1e-3,2e-3,3e-3,4e-3"],
-            "20 runs cannot be told apart in one plot: at most 12",
+            &["compare", "falling.ron", "--contact", "impulse,penalty", "--dt", "1e-3,2e-3,3e-3,4e-3,5e-3,6e-3,7e-3"],
+            "14 runs cannot be told apart in one plot",
         ),
         (&["schema", "1"], "unexpected argument"),
     ];
