@@ -29,7 +29,7 @@ fn cells(line: &str) -> Vec<&str> {
 #[test]
 fn the_figures_of_the_model_pages_are_what_compare_measures() {
     let bench = Bench::new();
-    let models = ["penalty", "impulse", "resting-lcp", "velocity-lcp"];
+    let models = ["penalty", "impulse", "resting-lcp", "velocity-lcp", "soft-step"];
     let mut measured = BTreeMap::new();
     for model in models {
         let page = format!("../../docs/models/{}.md", model.replace('-', "_"));
