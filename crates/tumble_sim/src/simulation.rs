@@ -145,7 +145,7 @@ impl<D: Geometry> Simulation<D> {
 
     /// Lets so many threads share the work of a step; 0 counts as 1, which is the default. The bits are the same whatever their number.
     ///
-    /// Only the soft-step model and the detection of its contacts share their work, in steps that are large enough to gain from it.
+    /// Detection and the soft-step model share their work, in steps that are large enough to gain from it; other models use one thread.
     ///
     /// # Errors
     ///
