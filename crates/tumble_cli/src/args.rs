@@ -79,7 +79,7 @@ pub struct RunArguments {
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
     pub frames: Option<u32>,
     /// Number of threads that share the steps of large scenes under soft-step; default: 1. The bits are the same whatever it is
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub threads: Option<NonZero<usize>>,
     /// Print only failed expectations and errors
     #[arg(long, short)]
@@ -181,7 +181,7 @@ pub struct BatchArguments {
     #[arg(long, value_name = "I/K", default_value = "1/1")]
     pub shard: Shard,
     /// Number of threads; default: one per core
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub threads: Option<NonZero<usize>>,
     #[command(flatten)]
     pub overrides: Overrides,
@@ -228,6 +228,15 @@ fn seconds(text: &str) -> Result<f64, String> {
         Ok(_) => Err("it must be positive and finite".to_owned()),
         Err(_) => Err("it must be a number of seconds, such as 0.01".to_owned()),
     }
+}
+
+/// More threads than this are a mistake: starting them would take longer than any run.
+const MOST_THREADS: usize = 256;
+
+/// Reads a number of threads.
+fn threads(text: &str) -> Result<NonZero<usize>, String> {
+    let number = text.parse().ok().and_then(NonZero::new).filter(|number| number.get() <= MOST_THREADS);
+    number.ok_or_else(|| format!("it must be a number from 1 to {MOST_THREADS}"))
 }
 
 fn channels() -> String {

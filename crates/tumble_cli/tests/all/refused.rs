@@ -29,6 +29,13 @@ fn wrong_arguments_are_refused_by_name() {
         (&["run", "falling.ron", "--every", "-3"], "-3 is not in 1.."),
         (&["run", "falling.ron", "--every", "1.5"], "invalid value '1.5'"),
         (&["run", "falling.ron", "--every", "4294967296"], "4294967296 is not in 1.."),
+        (&["run", "falling.ron", "--threads", "0"], "must be a number from 1 to 256"),
+        (&["run", "falling.ron", "--threads", "-2"], "must be a number from 1 to 256"),
+        (&["run", "falling.ron", "--threads", "100000"], "must be a number from 1 to 256"),
+        (
+            &["batch", "falling.ron", "--runs", "2", "--out", "b.csv", "--threads", "many"],
+            "must be a number from 1 to 256",
+        ),
         (&["run", "falling.ron", "--plot", "hight"], "unknown channel `hight`"),
         (&["run", "falling.ron", "--plot", "omeg:ball"], "did you mean `omega`"),
         (&["run", "falling.ron", "--plot", ""], "unknown channel"),

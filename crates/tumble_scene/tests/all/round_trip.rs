@@ -3,7 +3,7 @@
 use glam::{DVec2, dvec2, dvec3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use tumble_math::{Rotation, Spatial};
+use tumble_math::{Planar, Rotation, Spatial};
 use tumble_record::{Fingerprint, Record};
 use tumble_scene::format::{
     AnchorEntry, Axes, Axis, BodyEntry, BodyKind, BoxPart, ContactModel, DiscPart, Drag, Expectation, ForceEntry,
@@ -12,7 +12,7 @@ use tumble_scene::format::{
 };
 use tumble_scene::shipped::SHIPPED;
 use tumble_scene::{AnyLoaded, Check, FromScene, Loaded, SceneDim, ToScene, UnwritableError};
-use tumble_sim::{Orientation, Position, QuadraticDrag, Settings, Simulation};
+use tumble_sim::{Orientation, Position, QuadraticDrag, Settings, Simulation, SleepSettings};
 
 /// The state after some steps, or where and why the run failed.
 fn state_after<D: SceneDim>(steps: u32, simulation: &mut Simulation<D>) -> Result<Fingerprint, String> {
@@ -52,6 +52,29 @@ fn shipped_scenes_come_back_bit_for_bit() {
         let compared = compared.unwrap_or_else(|error| panic!("{}: {error}", shipped.name));
         compared.unwrap_or_else(|reason| panic!("{}: {reason}", shipped.name));
     }
+}
+
+#[test]
+fn soft_steps_that_sleep_come_back_bit_for_bit() -> Result<(), Box<dyn std::error::Error>> {
+    for (sleep, expected) in [
+        ("sleep: ()", Some(SleepSettings { speed: 0.05 * 0.5, after: 0.5 })),
+        ("sleep: (speed: 0.2, after: 0.1)", Some(SleepSettings { speed: 0.2, after: 0.1 })),
+        ("substeps: 3", None),
+    ] {
+        let text = format!(
+            r#"(
+            format: 1, duration: 1, contact: SoftStep, length_scale: 0.5, models: (soft_step: ({sleep})),
+            bodies: [
+                (name: "floor", kind: Static, parts: [HalfPlane()]),
+                (name: "box", at: (0, 0.6), parts: [Box(size: (1, 1))]),
+            ],
+        )"#
+        );
+        let simulation = Simulation::<Planar>::from_loaded(&Loaded::parse(&text, "sleep.ron")?)?;
+        assert_eq!(simulation.settings().sleep, expected);
+        same_bits_after_a_round_trip(simulation)?;
+    }
+    Ok(())
 }
 
 #[test]
