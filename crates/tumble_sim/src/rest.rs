@@ -19,7 +19,7 @@ use bevy_ecs::prelude::*;
 use tumble_math::{Dim, Linear};
 
 use crate::body::{AngularVelocity, BodyIndex, BodyKind, BodyTable, LinearVelocity};
-use crate::contact::{Colliders, ContactManifold, ContactPair};
+use crate::contact::{Colliders, ContactPair};
 use crate::force::{Anchor, AppliedForce, Spring};
 use crate::geometry::Geometry;
 use crate::joint::JointTable;
@@ -103,7 +103,7 @@ pub fn settle<D: Geometry>(
     joints: Res<JointTable<D>>,
     mut rest: ResMut<Rest>,
     mut bodies: BodyMotions<D>,
-    pairs: Query<(Entity, &ContactPair, &ContactManifold<D>), Awake>,
+    pairs: Query<(Entity, &ContactPair), Awake>,
     sleeping_pairs: Query<(Entity, &ContactPair), With<Asleep>>,
     springs: Query<&Spring<D::Vector>>,
     applied: Query<&AppliedForce<D>>,
@@ -125,7 +125,8 @@ pub fn settle<D: Geometry>(
         let time = &mut rest.slow_for[index.0 as usize];
         *time = if slow { *time + clock.dt } else { 0.0 };
         // What carries does not sleep, but whom it carries may, as long as it stands.
-        rest.restless[index.0 as usize] = *kind != BodyKind::Dynamic && speed > 0.0;
+        let moves = velocity.0 != D::Vector::ZERO || spin.0 != D::Angular::ZERO;
+        rest.restless[index.0 as usize] = *kind != BodyKind::Dynamic && moves;
     }
     let tied = joints.entries().iter().flat_map(|joint| joint.bodies);
     for body in tied.filter(|body| (*body as usize) < count) {
@@ -143,8 +144,8 @@ pub fn settle<D: Geometry>(
 
     let moves = |body: u32| table.entry(body).kind == BodyKind::Dynamic;
     let mut woken = BTreeSet::new();
-    for (_, pair, manifold) in &pairs {
-        if pair.response == Response::Sensor || D::points(&manifold.0).is_empty() {
+    for (_, pair) in &pairs {
+        if pair.response == Response::Sensor || pair.points == 0 {
             continue;
         }
         let [a, b] = pair.bodies;
@@ -192,7 +193,7 @@ pub fn settle<D: Geometry>(
             commands.entity(entity).insert(Asleep);
         }
     }
-    for (entity, pair, _) in &pairs {
+    for (entity, pair) in &pairs {
         let sleeps = |body: u32| rest.island[body as usize].is_some();
         // What is kinematic may begin to move.
         let stands = |body: u32| sleeps(body) || table.entry(body).kind == BodyKind::Static;

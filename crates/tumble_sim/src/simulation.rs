@@ -352,11 +352,12 @@ impl<D: Geometry> Simulation<D> {
         if self.known.contains(&Need::Detection) {
             self.world.resource_mut::<Messages<Touch>>().update();
             // Soft steps write what they give, rather than add it.
-            let forgets = self.settings().contact != ContactModel::SoftStep;
-            for mut memory in self.memories.iter_mut(&mut self.world).take_while(|_| forgets) {
-                for point in memory.bypass_change_detection().0.as_mut() {
-                    let point: &mut PointMemory<D::Vector> = point;
-                    point.given = D::Vector::ZERO;
+            if self.settings().contact != ContactModel::SoftStep {
+                for mut memory in self.memories.iter_mut(&mut self.world) {
+                    for point in memory.bypass_change_detection().0.as_mut() {
+                        let point: &mut PointMemory<D::Vector> = point;
+                        point.given = D::Vector::ZERO;
+                    }
                 }
             }
         }

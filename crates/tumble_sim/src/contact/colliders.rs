@@ -21,9 +21,7 @@ pub struct Collider<D: Geometry> {
     pub part: u32,
     /// The shape in the body frame.
     pub shape: D::Shape,
-    /// Largest distance of the shape from the centre of mass; 0 for a shape without bounds [m].
-    pub extent: f64,
-    /// Radius of a ball around the centre of mass that holds the shape; infinite for a shape without bounds [m].
+    /// Largest distance of the shape from the centre of mass; infinite for a shape without bounds [m].
     pub bounding_radius: f64,
     /// Its surface.
     pub material: MaterialId,
@@ -31,6 +29,13 @@ pub struct Collider<D: Geometry> {
     pub response: Response,
     /// What it can touch.
     pub groups: Groups,
+}
+
+impl<D: Geometry> Collider<D> {
+    /// Largest distance of the shape from the centre of mass; 0 for a shape without bounds [m].
+    pub fn extent(&self) -> f64 {
+        if self.bounding_radius.is_finite() { self.bounding_radius } else { 0.0 }
+    }
 }
 
 /// All parts of all bodies.
@@ -41,11 +46,13 @@ pub struct Colliders<D: Geometry> {
     starts: Vec<u32>,
     /// Largest extent of the parts of each body [m].
     extents: Vec<f64>,
+    /// Largest bounding radius of the parts of each body [m].
+    radii: Vec<f64>,
 }
 
 impl<D: Geometry> Default for Colliders<D> {
     fn default() -> Self {
-        Self { list: Vec::new(), starts: vec![0], extents: Vec::new() }
+        Self { list: Vec::new(), starts: vec![0], extents: Vec::new(), radii: Vec::new() }
     }
 }
 
@@ -63,6 +70,11 @@ impl<D: Geometry> Colliders<D> {
     /// Largest distance of a part of the body from its centre of mass; parts without bounds count as points [m].
     pub fn extent_of_body(&self, index: u32) -> f64 {
         self.extents[index as usize]
+    }
+
+    /// The same, infinite for a body with a part without bounds [m].
+    pub(super) fn radius_of_body(&self, index: u32) -> f64 {
+        self.radii[index as usize]
     }
 
     /// Ranks of the parts of a body.
@@ -108,7 +120,7 @@ pub(super) fn may_touch<D: Geometry>(
 
 /// Rebuilds the table from the bodies and their parts.
 pub(crate) fn prepare_colliders<D: Geometry>(world: &mut World) {
-    let mut colliders = Colliders::<D> { list: Vec::new(), starts: Vec::new(), extents: Vec::new() };
+    let mut colliders = Colliders::<D> { list: Vec::new(), starts: Vec::new(), extents: Vec::new(), radii: Vec::new() };
     for (body, entry) in world.resource::<BodyTable>().entries().iter().enumerate() {
         colliders.starts.push(colliders.list.len() as u32);
         let origin = world.get::<PartFrame<D::Vector>>(entry.entity).map_or(D::Vector::ZERO, |frame| frame.0);
@@ -119,7 +131,6 @@ pub(crate) fn prepare_colliders<D: Geometry>(world: &mut World) {
                 entity,
                 body: body as u32,
                 part: number as u32,
-                extent: D::extent(&shape).unwrap_or(0.0),
                 bounding_radius: D::extent(&shape).unwrap_or(f64::INFINITY),
                 shape,
                 material: part.material,
@@ -128,7 +139,8 @@ pub(crate) fn prepare_colliders<D: Geometry>(world: &mut World) {
             });
         }
         let parts = &colliders.list[colliders.starts[body] as usize..];
-        colliders.extents.push(parts.iter().map(|part| part.extent).fold(0.0, f64::max));
+        colliders.extents.push(parts.iter().map(Collider::extent).fold(0.0, f64::max));
+        colliders.radii.push(parts.iter().map(|part| part.bounding_radius).fold(0.0, f64::max));
     }
     colliders.starts.push(colliders.list.len() as u32);
     world.insert_resource(colliders);

@@ -225,7 +225,9 @@ pub fn find_pairs<D: Geometry>(
         let known = detection.ranks == Ranks::Known;
         let unmoved = known && motion.pose == pose && reach <= motion.reach;
         let (boxed, boxed_reach) = motion.boxed;
-        let near = known && reach <= boxed_reach && is_near(&pose, &boxed, extent, SLACK * settings.length_scale);
+        let near = known
+            && reach <= boxed_reach
+            && is_near(&pose, &boxed, colliders.radius_of_body(index.0), SLACK * settings.length_scale);
         *motion = BodyMotion {
             pose,
             axes: D::matrix(&pose.rotation),
@@ -282,11 +284,11 @@ pub fn find_pairs<D: Geometry>(
     detection.broad.share_pairs(threads.team(), filter, &mut detection.changes);
 }
 
-/// Whether a body is where it was, within a distance for its centre and for the farthest of its points [m].
-fn is_near<D: Geometry>(now: &Pose<D>, then: &Pose<D>, extent: f64, distance: f64) -> bool {
+/// Whether a body is where it was, within a distance for its centre and for the points within a radius of it, which may be infinite [m].
+fn is_near<D: Geometry>(now: &Pose<D>, then: &Pose<D>, radius: f64, distance: f64) -> bool {
     let moved = now.position - then.position;
-    let straying = now.rotation.strayed(&D::Rotation::default(), &then.rotation);
-    moved.dot(moved) <= distance * distance && extent * extent * straying <= distance * distance
+    let turned = || radius * radius * now.rotation.strayed(&D::Rotation::default(), &then.rotation);
+    moved.dot(moved) <= distance * distance && (now.rotation == then.rotation || turned() <= distance * distance)
 }
 
 /// Gives the entities of pairs that ended to pairs that began, in order; spawns what is missing and despawns what is left.
@@ -310,6 +312,7 @@ pub fn sync_pairs<D: Geometry>(world: &mut World) {
             while added.next_if(|other| **other < pair.parts).is_some() {}
             added.peek() != Some(&&pair.parts)
         } else {
+            while removed.next_if(|other| **other < pair.parts).is_some() {}
             removed.next_if(|other| **other == pair.parts).is_some()
         };
         if ends {
@@ -414,7 +417,8 @@ fn place_pairs<D: Geometry>(
     let mut began = began.iter().copied();
     let near = |pair: &ContactPair, entity| NearPair { parts: pair.colliders.into(), entity };
     for entity in ended {
-        let contact = world.entity_mut(*entity);
+        // The user may have despawned it.
+        let Ok(contact) = world.get_entity_mut(*entity) else { continue };
         // What somebody has put on it must not pass to another pair.
         let plain = contact.archetype().components().len() == reuse.components();
         if plain && let Some(pair) = began.next() {

@@ -221,7 +221,7 @@ impl<D: Geometry> ImpactTimes<D> {
                 };
                 points.push(Point { feature: point.feature, state });
             }
-            let extents = pair.colliders.map(|collider| colliders.as_slice()[collider as usize].extent);
+            let extents = pair.colliders.map(|collider| colliders.as_slice()[collider as usize].extent());
             let fastest = meeting.fastest(extents, part);
             let arrival = meeting.first_arrival(&points[first..], settings, fastest, part);
             let count = (points.len() - first) as u32;

@@ -64,7 +64,7 @@ fn spring_damper<D: Geometry>(
     dt: f64,
     notices: &mut Notices,
 ) -> SpringDamper {
-    let [extent_a, extent_b] = pair.colliders.map(|collider| colliders.as_slice()[collider as usize].extent);
+    let [extent_a, extent_b] = pair.colliders.map(|collider| colliders.as_slice()[collider as usize].extent());
     let (a, b) = (&bodies[row.a as usize], &bodies[row.b as usize]);
     let bound = penalty::compliance_bound(a, extent_a, b, extent_b);
     let ratio = penalty::damping_ratio(pair.surface.restitution);

@@ -125,7 +125,7 @@ impl<D: Geometry> Look<'_, D> {
                 // Farther, by what a step may reach farther and by what bodies may come nearer unnoticed.
                 let margin = margin + self.reuse_tolerance;
                 let found = self.find(pair, manifold, margin + 2.0 * self.reuse_tolerance);
-                let extent = |collider: u32| self.colliders[collider as usize].extent;
+                let extent = |collider: u32| self.colliders[collider as usize].extent();
                 reuse.remember(&found, bodies, extent(pair.colliders[0]).max(extent(pair.colliders[1])), margin);
                 remember::<D>(manifold, &found, memory);
                 *manifold = found;

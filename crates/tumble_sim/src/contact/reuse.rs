@@ -2,7 +2,7 @@
 //!
 //! In a pile at rest nearly all pairs keep their points for as long as it rests. Each point is kept as two anchors, one on each body,
 //! and the normal in a's frame; where the bodies are now says where the anchors are, and how far apart. The pair is looked at anew
-//! as soon as a marker of b, seen from a, is farther than a tolerance from where it was: errors never add up.
+//! as soon as b's centre or the tips of its axes, seen from a, are farther than a tolerance from where they were: errors never add up.
 //!
 //! Only models that soften contacts reuse points: the exact ones find them in every step.
 

@@ -1,15 +1,15 @@
 //! Contacts as users meet them: nothing tunnels, nothing bumps, rest is rest, and the world may be edited between steps.
 
 use crate::support;
-use crate::support::{block, body, bouncing, every, floor, rod, rough, simulation, weightless};
+use crate::support::{ball, block, body, bouncing, direction, every, floor, rod, rough, simulation, under, weightless};
 use bevy_ecs::name::Name;
 use bevy_ecs::prelude::*;
 use glam::{DVec2, dvec2};
 use tumble_math::{Linear, Planar, PlanarRotation};
 use tumble_shape::{ConvexPolygon, Rod};
 use tumble_sim::{
-    Amount, BodyId, BodyKind, Groups, IgnoredPairs, Integrator, Keyframe, Keyframes, LinearVelocity, Part, Position,
-    Response, Settings, Simulation, Touch, TouchPhase,
+    Amount, AngularVelocity, BodyId, BodyKind, ContactModel, ContactPair, Groups, IgnoredPairs, Integrator, Keyframe,
+    Keyframes, LinearVelocity, Part, Position, Response, Settings, Simulation, Touch, TouchPhase,
 };
 use tumble_solver::Surface;
 
@@ -275,4 +275,40 @@ fn bad_bodies_are_refused_by_name() {
         rod(1.0, 1.0).moving(f64::MAX, 0.0).spinning(0.0).at(f64::MAX, 0.0).spawn(simulation, "endless");
     });
     assert!(endless.contains("\"endless\""), "{endless}");
+}
+
+#[test]
+fn a_floor_that_tilts_slowly_meets_a_ball_far_from_its_pivot() {
+    // A half-plane has no extent, and its pivot does not move: only its turning says that it comes.
+    for contact in [ContactModel::Impulse, ContactModel::SoftStep] {
+        let mut simulation = simulation(under(contact, every(0.01)), rough(0.0, 0.0));
+        let floor = floor(&mut simulation);
+        simulation.world_mut().entity_mut(floor).insert((BodyKind::Kinematic, AngularVelocity(0.1)));
+        ball(0.5, 1.0).at(10.0, 0.5).spawn(&mut simulation, "ball");
+        for _ in 0..200 {
+            simulation.step().unwrap();
+            let up = direction(0.1 * simulation.time()).perp();
+            let gap = up.dot(body(&simulation, "ball").position()) - 0.5;
+            // The slop, and the turning of a step, ω r Δt = 10 mm, that soft contact may lag behind.
+            assert!(gap > -0.02, "{contact:?}: {gap} m at {} s", simulation.time());
+        }
+    }
+}
+
+#[test]
+fn a_contact_that_the_user_despawned_is_no_longer_missed_when_it_ends() {
+    for contact in [ContactModel::Impulse, ContactModel::SoftStep] {
+        let mut simulation = simulation(under(contact, every(0.01)), rough(0.3, 0.3));
+        floor(&mut simulation);
+        for k in 0..3 {
+            ball(0.5, 1.0).at(2.0 * f64::from(k), 0.5).moving(0.0, 3.0).spawn(&mut simulation, &format!("ball-{k}"));
+        }
+        simulation.step().unwrap();
+        let mut contacts = simulation.world_mut().query_filtered::<Entity, With<ContactPair>>();
+        let first = contacts.iter(simulation.world()).next().unwrap();
+        simulation.world_mut().despawn(first);
+        // All three leave the floor, so all three pairs end.
+        simulation.run_for(0.3).unwrap();
+        assert_eq!(contacts.iter(simulation.world()).count(), 0, "{contact:?}");
+    }
 }

@@ -3,7 +3,8 @@
 use crate::support::{ball, block, body, every, floor, rod, rough, simulation, under};
 use glam::dvec2;
 use tumble_sim::{
-    Asleep, BodyKind, ContactModel, LinearVelocity, Rest, Settings, Simulation, SleepSettings, Structure,
+    AngularVelocity, Asleep, BodyKind, ContactModel, LinearVelocity, Rest, Settings, Simulation, SleepSettings,
+    Structure,
 };
 
 fn sleepy() -> Settings {
@@ -99,6 +100,19 @@ fn a_support_that_begins_to_move_takes_its_load_along() {
     // Friction brings it to the belt's speed, within what softness lets creep.
     assert!((body(&simulation, "box-1").velocity().x - 0.5).abs() < 0.01);
     assert!(!sleeps(&simulation, "box-1"), "what rides on something that moves stays awake");
+}
+
+#[test]
+fn a_floor_that_tilts_however_slowly_keeps_its_load_awake() {
+    let mut simulation = simulation(sleepy(), rough(0.9, 0.9));
+    let floor = floor(&mut simulation);
+    simulation.world_mut().entity_mut(floor).insert((BodyKind::Kinematic, AngularVelocity(0.01)));
+    block(1.0, 1.0, 1.0).at(1.0, 0.5).spawn(&mut simulation, "box");
+    simulation.run_for(3.0).unwrap();
+    // It moves by 1 cm/s, slower than what may sleep.
+    assert!(!sleeps(&simulation, "box"));
+    let angle = body(&simulation, "box").angle();
+    assert!((angle - 0.03).abs() < 1e-3, "it tilts with the floor: {angle}");
 }
 
 #[test]
