@@ -9,6 +9,8 @@
 
 mod barrier;
 
+use std::sync::{Mutex, PoisonError};
+
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 pub use barrier::Barrier;
@@ -53,12 +55,20 @@ impl Team {
         self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
     }
 
-    /// Runs `work` on one of the threads, where sharing wakes the others soonest.
+    /// Runs `work` on one of the threads: always the same one, whose caches know the work of the step before.
+    ///
+    /// # Panics
+    ///
+    /// When the work does.
     pub fn enter<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        match &self.pool {
-            None => work(),
-            Some(pool) => pool.install(work),
-        }
+        let Some(pool) = &self.pool else { return work() };
+        let work = Mutex::new(Some(work));
+        let results = pool.broadcast(|thread| {
+            let first = thread.index() == 0;
+            let work = if first { work.lock().unwrap_or_else(PoisonError::into_inner).take() } else { None };
+            work.map(|work| work())
+        });
+        results.into_iter().flatten().next().expect("the first thread has worked")
     }
 
     /// Does every task on whichever thread is free. No task may depend on another.

@@ -1,15 +1,12 @@
 //! Collision detection (L1): near pairs, then contact points, then what is remembered of them.
 
-use std::collections::HashMap;
-
 use bevy_ecs::prelude::*;
 use tumble_collision::{BroadPhase, PairChanges, TurningBox};
 use tumble_math::{Dim, Linear, Matrix, Pose, Rotation};
-use tumble_solver::soft_step::PairColour;
 
 use super::colliders::may_touch;
-use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, IgnoredPairs, Materials, PairKey};
-use super::{ContactReuse, SoftModel, Touch, TouchPhase};
+use super::near::NearPairs;
+use super::{Colliders, IgnoredPairs, Touch};
 use crate::body::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyIndex, BodyTable, LinearVelocity, Orientation, Position,
 };
@@ -17,7 +14,6 @@ use crate::fault::Fault;
 use crate::geometry::Geometry;
 use crate::joint::JointTable;
 use crate::notice::Notices;
-use crate::part::Response;
 use crate::rest::Awake;
 use crate::threads::Threads;
 use crate::{Clock, ContactModel, Settings};
@@ -78,21 +74,41 @@ pub struct Detection<D: Geometry> {
     broad: BroadPhase<D::Vector>,
     changes: PairChanges,
     pub(super) motions: Vec<BodyMotion<D>>,
-    /// A ball around each part that holds all that it can reach in the next step.
-    pub(super) balls: Vec<Ball<D::Vector>>,
-    /// Where each part may be until the end of the next step; `None` for a part without bounds.
-    pub(super) boxes: Vec<Option<D::OrientedBox>>,
+    pub(super) bounds: PartBounds<D>,
     /// The same with the margins of fat volumes: two parts are a pair while both overlap.
     fat_boxes: Vec<Option<D::OrientedBox>>,
-    /// All near pairs, in the order of their parts.
-    pairs: Vec<NearPair>,
+    pub(super) near: NearPairs,
     ranks: Ranks,
     pub(super) touches: Vec<Touch>,
 }
 
+/// Where each part may be until the end of the next step.
+#[derive(Debug)]
+pub(super) struct PartBounds<D: Geometry> {
+    /// A ball around each part.
+    balls: Vec<Ball<D::Vector>>,
+    /// A box around it that turns with it; `None` for a part without bounds.
+    boxes: Vec<Option<D::OrientedBox>>,
+}
+
+impl<D: Geometry> PartBounds<D> {
+    fn resize(&mut self, parts: usize) {
+        self.balls.resize(parts, Ball { centre: D::Vector::ZERO, radius: f64::INFINITY });
+        self.boxes.resize(parts, None);
+    }
+
+    /// Whether two parts are too far from each other to come near: fat bounds overlap long before.
+    #[inline]
+    pub(super) fn are_apart(&self, (a, b): (u32, u32)) -> bool {
+        let (a, b) = (a as usize, b as usize);
+        self.balls[a].is_apart_from(&self.balls[b])
+            || matches!((&self.boxes[a], &self.boxes[b]), (Some(a), Some(b)) if !a.overlaps(b))
+    }
+}
+
 /// A ball.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ball<V> {
+struct Ball<V> {
     centre: V,
     radius: f64,
 }
@@ -100,18 +116,10 @@ pub(super) struct Ball<V> {
 impl<V: Linear> Ball<V> {
     /// Whether two balls have no point in common.
     #[inline]
-    pub(super) fn is_apart_from(&self, other: &Self) -> bool {
+    fn is_apart_from(&self, other: &Self) -> bool {
         let (between, reach) = (other.centre - self.centre, self.radius + other.radius);
         between.dot(between) > reach * reach
     }
-}
-
-/// A near pair and its entity.
-#[derive(Clone, Copy, Debug)]
-struct NearPair {
-    /// Ranks of the two parts.
-    parts: (u32, u32),
-    entity: Entity,
 }
 
 /// Whether the ranks of parts in the broad phase are those of the tables.
@@ -131,10 +139,9 @@ impl<D: Geometry> Default for Detection<D> {
             broad: BroadPhase::new(),
             changes: PairChanges::default(),
             motions: Vec::new(),
-            balls: Vec::new(),
-            boxes: Vec::new(),
+            bounds: PartBounds { balls: Vec::new(), boxes: Vec::new() },
             fat_boxes: Vec::new(),
-            pairs: Vec::new(),
+            near: NearPairs::default(),
             ranks: Ranks::Forgotten,
             touches: Vec::new(),
         }
@@ -149,7 +156,7 @@ impl<D: Geometry> Detection<D> {
 
     /// Number of pairs whose grown bounds overlap.
     pub fn pair_count(&self) -> usize {
-        self.pairs.len()
+        self.near.len()
     }
 
     /// Forgets all ranks: bodies or parts were added or removed.
@@ -198,14 +205,11 @@ pub fn find_pairs<D: Geometry>(
     mut detection: ResMut<Detection<D>>,
 ) {
     let detection = &mut *detection;
-    detection.changes.added.clear();
-    detection.changes.removed.clear();
     if !fault.is_none() {
         return;
     }
     detection.motions.resize_with(table.entries().len(), BodyMotion::default);
-    detection.balls.resize(colliders.as_slice().len(), Ball { centre: D::Vector::ZERO, radius: f64::INFINITY });
-    detection.boxes.resize(colliders.as_slice().len(), None);
+    detection.bounds.resize(colliders.as_slice().len());
     detection.fat_boxes.resize(colliders.as_slice().len(), None);
     let fat_margin = FAT_MARGIN * settings.length_scale;
     let limit = settings.speculative_limit();
@@ -241,7 +245,7 @@ pub fn find_pairs<D: Geometry>(
         let reach_now = motion.reach;
         for part in parts.clone() {
             let radius = colliders.as_slice()[part].bounding_radius + reach_now;
-            detection.balls[part] = Ball { centre: pose.position, radius };
+            detection.bounds.balls[part] = Ball { centre: pose.position, radius };
         }
         if near {
             continue;
@@ -262,7 +266,7 @@ pub fn find_pairs<D: Geometry>(
         for part in parts {
             let shape = &colliders.as_slice()[part].shape;
             let bounds = D::oriented_box(shape, &pose, reach).map(|bounds| bounds.swept(step));
-            detection.boxes[part] = bounds;
+            detection.bounds.boxes[part] = bounds;
             let volume = D::volume(shape, &pose).swept(step).grown(reach);
             let margin = fat_margin + (turning * clock.dt).min(limit);
             let renewed = detection.broad.update_moving(part as u32, volume, ahead, margin);
@@ -282,6 +286,9 @@ pub fn find_pairs<D: Geometry>(
             && may_touch(&list[a as usize], &list[b as usize], &table, &ignored, &joints)
     };
     detection.broad.share_pairs(threads.team(), filter, &mut detection.changes);
+    detection.near.follow(&detection.changes, detection.ranks == Ranks::Renewed);
+    let bounds = &detection.bounds;
+    detection.near.meet(|parts| bounds.are_apart(parts));
 }
 
 /// Whether a body is where it was, within a distance for its centre and for the points within a radius of it, which may be infinite [m].
@@ -289,212 +296,4 @@ fn is_near<D: Geometry>(now: &Pose<D>, then: &Pose<D>, radius: f64, distance: f6
     let moved = now.position - then.position;
     let turned = || radius * radius * now.rotation.strayed(&D::Rotation::default(), &then.rotation);
     moved.dot(moved) <= distance * distance && (now.rotation == then.rotation || turned() <= distance * distance)
-}
-
-/// Gives the entities of pairs that ended to pairs that began, in order; spawns what is missing and despawns what is left.
-pub fn sync_pairs<D: Geometry>(world: &mut World) {
-    let detection = world.resource_mut::<Detection<D>>().into_inner();
-    let renewed = detection.ranks == Ranks::Renewed;
-    if detection.changes.added.is_empty() && detection.changes.removed.is_empty() && !renewed {
-        return;
-    }
-    let changes = std::mem::take(&mut detection.changes);
-    let mut pairs = std::mem::take(&mut detection.pairs);
-    let (table, colliders) = (world.resource::<BodyTable>(), world.resource::<Colliders<D>>().as_slice());
-    let materials = world.resource::<Materials>();
-
-    let mut removed = changes.removed.iter().peekable();
-    let mut added = changes.added.iter().peekable();
-    let mut ended = Vec::new();
-    pairs.retain(|pair| {
-        let ends = if renewed {
-            // `added` holds all pairs there are.
-            while added.next_if(|other| **other < pair.parts).is_some() {}
-            added.peek() != Some(&&pair.parts)
-        } else {
-            while removed.next_if(|other| **other < pair.parts).is_some() {}
-            removed.next_if(|other| **other == pair.parts).is_some()
-        };
-        if ends {
-            ended.push(pair.entity);
-        }
-        !ends
-    });
-    let fresh = |parts: &&(u32, u32)| !renewed || pairs.binary_search_by_key(*parts, |pair| pair.parts).is_err();
-    let began: Vec<ContactPair> = (changes.added.iter().filter(fresh))
-        .map(|&(a, b)| new_pair(&colliders[a as usize], &colliders[b as usize], [a, b], table, materials))
-        .collect();
-
-    let mut touches = Vec::new();
-    end_touches(world, &ended, world.resource::<Clock>().time_after_part(), &mut touches);
-    let reuse = Reuse::of(world.resource::<Settings<D>>().contact);
-    if reuse == Reuse::Yes {
-        release_colours::<D>(world, &ended);
-    }
-    place_pairs::<D>(world, &ended, &began, reuse, &mut pairs);
-    // Two runs in order, which a stable sort only merges.
-    pairs.sort_by_key(|pair| pair.parts);
-    let mut detection = world.resource_mut::<Detection<D>>();
-    detection.pairs = pairs;
-    detection.touches.append(&mut touches);
-    detection.changes = changes;
-}
-
-/// Makes contact entities agree with the tables after bodies or parts were added or removed: pairs of known parts get their new
-/// ranks and keep their memory; pairs of parts that are gone end.
-pub(crate) fn renumber_pairs<D: Geometry>(world: &mut World) {
-    let pairs = std::mem::take(&mut world.resource_mut::<Detection<D>>().pairs);
-    let colliders = world.resource::<Colliders<D>>();
-    let (table, materials) = (world.resource::<BodyTable>(), world.resource::<Materials>());
-    let ranks: HashMap<(u64, u32), u32> = colliders
-        .as_slice()
-        .iter()
-        .enumerate()
-        .map(|(rank, part)| ((table.entry(part.body).id.0, part.part), rank as u32))
-        .collect();
-    let mut renumbered = Vec::new();
-    let mut gone = Vec::new();
-    for NearPair { entity, .. } in pairs {
-        let Some(key) = world.get::<ContactPair>(entity).map(|pair| pair.key) else { continue };
-        match (ranks.get(&(key.a.0, key.part_a)), ranks.get(&(key.b.0, key.part_b))) {
-            (Some(&a), Some(&b)) => {
-                let list = colliders.as_slice();
-                let pair = new_pair(&list[a as usize], &list[b as usize], [a, b], table, materials);
-                renumbered.push((entity, pair));
-            }
-            _ => gone.push(entity),
-        }
-    }
-    let mut pairs = Vec::new();
-    for (entity, pair) in renumbered {
-        if let Some(mut known) = world.get_mut::<ContactPair>(entity) {
-            *known = ContactPair { touching: known.touching, points: known.points, ..pair };
-        }
-        // Their shapes may be others now.
-        if let Some(mut reuse) = world.get_mut::<ContactReuse<D>>(entity) {
-            *reuse = ContactReuse::default();
-        }
-        pairs.push(NearPair { parts: pair.colliders.into(), entity });
-    }
-    pairs.sort_unstable_by_key(|pair| pair.parts);
-    let mut touches = Vec::new();
-    end_touches(world, &gone, world.resource::<Clock>().time(), &mut touches);
-    for entity in gone {
-        world.despawn(entity);
-    }
-    world.resource_mut::<SoftModel<D>>().colours().forget();
-    let mut detection = world.resource_mut::<Detection<D>>();
-    detection.pairs = pairs;
-    detection.touches.append(&mut touches);
-    detection.forget_ranks();
-}
-
-/// Tells of the pairs that touched until now.
-fn end_touches(world: &World, ended: &[Entity], time: f64, touches: &mut Vec<Touch>) {
-    for pair in ended.iter().filter_map(|entity| world.get::<ContactPair>(*entity)).filter(|pair| pair.touching) {
-        touches.push(Touch { phase: TouchPhase::Ended, pair: pair.key, response: pair.response, time });
-    }
-}
-
-/// Gives the colours of ended pairs back.
-fn release_colours<D: Geometry>(world: &mut World, ended: &[Entity]) {
-    let mut released = Vec::with_capacity(ended.len());
-    released.extend(ended.iter().filter_map(|entity| world.get::<ContactPair>(*entity)).copied());
-    let mut soft = world.resource_mut::<SoftModel<D>>();
-    for pair in released {
-        soft.colours().release(pair.bodies, pair.colour);
-    }
-}
-
-/// Finds an entity for every pair that began: one whose pair ended, as long as there are any, and otherwise a new one.
-fn place_pairs<D: Geometry>(
-    world: &mut World,
-    ended: &[Entity],
-    began: &[ContactPair],
-    reuse: Reuse,
-    pairs: &mut Vec<NearPair>,
-) {
-    let mut began = began.iter().copied();
-    let near = |pair: &ContactPair, entity| NearPair { parts: pair.colliders.into(), entity };
-    for entity in ended {
-        // The user may have despawned it.
-        let Ok(contact) = world.get_entity_mut(*entity) else { continue };
-        // What somebody has put on it must not pass to another pair.
-        let plain = contact.archetype().components().len() == reuse.components();
-        if plain && let Some(pair) = began.next() {
-            pairs.push(near(&pair, *entity));
-            renew::<D>(contact, pair);
-        } else {
-            contact.despawn();
-        }
-    }
-    let fresh: Vec<ContactPair> = began.collect();
-    let bundles = (fresh.iter().copied())
-        .map(|pair| (pair, ContactManifold::<D>(D::Manifold::default()), ContactMemory::<D>(D::PerPoint::default())));
-    let entities: Vec<Entity> = match reuse {
-        Reuse::No => world.spawn_batch(bundles).collect(),
-        Reuse::Yes => {
-            let bundles =
-                bundles.map(|(pair, manifold, memory)| (pair, manifold, memory, ContactReuse::<D>::default()));
-            world.spawn_batch(bundles).collect()
-        }
-    };
-    pairs.extend(fresh.iter().zip(entities).map(|(pair, entity)| near(pair, entity)));
-}
-
-/// Makes another pair's contact of an entity.
-fn renew<D: Geometry>(mut contact: EntityWorldMut<'_>, pair: ContactPair) {
-    if let Some(mut known) = contact.get_mut::<ContactPair>() {
-        *known = pair;
-    }
-    if let Some(mut manifold) = contact.get_mut::<ContactManifold<D>>() {
-        manifold.0 = D::Manifold::default();
-    }
-    if let Some(mut memory) = contact.get_mut::<ContactMemory<D>>() {
-        memory.0 = D::PerPoint::default();
-    }
-    if let Some(mut reuse) = contact.get_mut::<ContactReuse<D>>() {
-        *reuse = ContactReuse::default();
-    }
-}
-
-/// Whether contact points are reused from step to step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Reuse {
-    Yes,
-    No,
-}
-
-impl Reuse {
-    fn of(model: ContactModel) -> Self {
-        if model == ContactModel::SoftStep { Self::Yes } else { Self::No }
-    }
-
-    /// Number of components of a contact.
-    fn components(self) -> usize {
-        match self {
-            Self::No => 3,
-            Self::Yes => 4,
-        }
-    }
-}
-
-fn new_pair<D: Geometry>(
-    a: &Collider<D>,
-    b: &Collider<D>,
-    colliders: [u32; 2],
-    table: &BodyTable,
-    materials: &Materials,
-) -> ContactPair {
-    let sensor = a.response == Response::Sensor || b.response == Response::Sensor;
-    ContactPair {
-        key: PairKey { a: table.entry(a.body).id, b: table.entry(b.body).id, part_a: a.part, part_b: b.part },
-        bodies: [a.body, b.body],
-        colliders,
-        surface: materials.surface(a.material, b.material),
-        response: if sensor { Response::Sensor } else { Response::Solid },
-        touching: false,
-        points: 0,
-        colour: PairColour::NONE,
-    }
 }

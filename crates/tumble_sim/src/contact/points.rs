@@ -5,10 +5,9 @@ use std::sync::{Mutex, PoisonError};
 
 use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::prelude::*;
-use tumble_collision::TurningBox;
 use tumble_math::Linear;
 
-use super::detect::{Ball, BodyMotion};
+use super::detect::{BodyMotion, PartBounds};
 use super::reuse::REUSE_TOLERANCE;
 use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, Detection, IN_TABLES};
 use super::{ContactReuse, PointMemory, Touch, TouchPhase};
@@ -48,8 +47,7 @@ pub fn find_contacts<D: Geometry>(
         settings: &settings,
         colliders: colliders.as_slice(),
         motions: &detection.motions,
-        balls: &detection.balls,
-        boxes: &detection.boxes,
+        bounds: &detection.bounds,
         touch_tolerance,
         keep_tolerance: touch_tolerance.max(KEEP_TOLERANCE * settings.slop()),
         reuse_tolerance: REUSE_TOLERANCE * settings.length_scale,
@@ -86,8 +84,7 @@ struct Look<'a, D: Geometry> {
     settings: &'a Settings<D>,
     colliders: &'a [Collider<D>],
     motions: &'a [BodyMotion<D>],
-    balls: &'a [Ball<D::Vector>],
-    boxes: &'a [Option<D::OrientedBox>],
+    bounds: &'a PartBounds<D>,
     touch_tolerance: f64,
     keep_tolerance: f64,
     reuse_tolerance: f64,
@@ -106,7 +103,7 @@ impl<D: Geometry> Look<'_, D> {
         memory: &mut D::PerPoint<PointMemory<D::Vector>>,
         reuse: Option<&mut ContactReuse<D>>,
     ) {
-        if !pair.touching && (self.balls_are_apart(pair) || self.boxes_are_apart(pair)) {
+        if !pair.touching && self.bounds.are_apart(pair.colliders.into()) {
             if std::mem::take(&mut pair.points) > 0 {
                 *manifold = D::Manifold::default();
                 if let Some(reuse) = reuse {
@@ -153,19 +150,6 @@ impl<D: Geometry> Look<'_, D> {
             self.tell(pair, TouchPhase::Ended, self.begins);
             self.tell(pair, TouchPhase::Began, self.time);
         }
-    }
-
-    /// Whether balls around the parts are too far from each other for the parts to come near: fat bounds overlap long before.
-    #[inline]
-    fn balls_are_apart(&self, pair: &ContactPair) -> bool {
-        let [a, b] = pair.colliders.map(|collider| &self.balls[collider as usize]);
-        a.is_apart_from(b)
-    }
-
-    /// The same of boxes that turn with them.
-    fn boxes_are_apart(&self, pair: &ContactPair) -> bool {
-        let boxes = pair.colliders.map(|collider| self.boxes[collider as usize].as_ref());
-        matches!(boxes, [Some(a), Some(b)] if !a.overlaps(b))
     }
 
     /// The points of a pair, found anew.

@@ -1,0 +1,73 @@
+//! Near pairs: those whose fat bounds overlap.
+//!
+//! Most of them never touch. A near pair gets a contact, an entity, in the first step in which its parts might touch, and keeps it until the
+//! fat bounds part: what comes and goes with every small motion is a line in a list.
+
+use bevy_ecs::prelude::*;
+use tumble_collision::PairChanges;
+
+/// Ranks of two parts, the smaller one first.
+pub(super) type PartRanks = (u32, u32);
+
+/// A near pair.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NearPair {
+    pub(super) parts: PartRanks,
+    /// Its contact, if it has one yet.
+    pub(super) contact: Option<Entity>,
+}
+
+/// All near pairs.
+#[derive(Debug, Default)]
+pub(super) struct NearPairs {
+    /// In the order of their parts.
+    pub(super) pairs: Vec<NearPair>,
+    /// Contacts of pairs that ended.
+    pub(super) ended: Vec<Entity>,
+    /// Places of pairs that need a contact.
+    pub(super) began: Vec<u32>,
+}
+
+impl NearPairs {
+    /// Number of near pairs.
+    pub(super) fn len(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// Follows the broad phase: changes of the pairs, or, `renewed`, all pairs there are.
+    pub(super) fn follow(&mut self, changes: &PairChanges, renewed: bool) {
+        if !renewed && changes.added.is_empty() && changes.removed.is_empty() {
+            return;
+        }
+        let mut removed = changes.removed.iter().peekable();
+        let mut added = changes.added.iter().peekable();
+        let ended = &mut self.ended;
+        self.pairs.retain(|pair| {
+            let ends = if renewed {
+                while added.next_if(|other| **other < pair.parts).is_some() {}
+                added.peek() != Some(&&pair.parts)
+            } else {
+                while removed.next_if(|other| **other < pair.parts).is_some() {}
+                removed.next_if(|other| **other == pair.parts).is_some()
+            };
+            if ends {
+                ended.extend(pair.contact);
+            }
+            !ends
+        });
+        let known = self.pairs.len();
+        let is_known = |parts: &PartRanks| self.pairs[..known].binary_search_by_key(parts, |pair| pair.parts).is_ok();
+        let fresh: Vec<PartRanks> =
+            changes.added.iter().filter(|parts| !renewed || !is_known(parts)).copied().collect();
+        self.pairs.extend(fresh.into_iter().map(|parts| NearPair { parts, contact: None }));
+        // Two runs in order, which a stable sort only merges.
+        self.pairs.sort_by_key(|pair| pair.parts);
+    }
+
+    /// Notes which pairs need a contact: those that have none and are not apart any more.
+    pub(super) fn meet(&mut self, are_apart: impl Fn(PartRanks) -> bool) {
+        let needs = |pair: &NearPair| pair.contact.is_none() && !are_apart(pair.parts);
+        self.began.clear();
+        self.began.extend((0..).zip(&self.pairs).filter(|(_, pair)| needs(pair)).map(|(place, _)| place));
+    }
+}
