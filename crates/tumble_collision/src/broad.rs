@@ -43,7 +43,7 @@ pub struct PairChanges {
 #[derive(Clone, Debug)]
 pub struct BroadPhase<V> {
     proxies: Vec<Option<Proxy<V>>>,
-    tree: Tree<V>,
+    tree: Tree,
     /// Ids of the half-spaces.
     half_spaces: Vec<u32>,
     /// What happened to each id since the last update of pairs.
@@ -69,8 +69,8 @@ const PROXIES_OF_A_TASK: usize = 128;
 #[derive(Clone, Copy, Debug)]
 struct Proxy<V> {
     fat: Volume<V>,
-    /// Handle in the tree, for a box that is not empty.
-    leaf: Option<u32>,
+    /// Whether it is in the tree: a box that is not empty.
+    in_tree: bool,
 }
 
 /// What happened to a proxy since the last update of pairs.
@@ -138,11 +138,11 @@ impl<V: Vector> BroadPhase<V> {
         if proxy.fat.contains(&volume) && volume.grown(wide).contains(&proxy.fat) {
             return false;
         }
-        if let (Some(leaf), Volume::Box(bounds)) = (proxy.leaf, fat)
+        if let (true, Volume::Box(bounds)) = (proxy.in_tree, fat)
             && bounds.overlaps(&bounds)
         {
-            self.tree.replace(leaf, bounds);
-            self.proxies[id as usize] = Some(Proxy { fat, leaf: Some(leaf) });
+            self.tree.replace(id, &bounds);
+            self.proxies[id as usize] = Some(Proxy { fat, in_tree: true });
             self.mark(id, Mark::Changed);
         } else {
             self.displace(id);
@@ -174,6 +174,7 @@ impl<V: Vector> BroadPhase<V> {
             return;
         }
         self.drop_ended_pairs(&filter, &mut changes.removed);
+        self.tree.sort::<V>();
         self.find_candidates(team);
         self.candidates.sort_unstable();
         self.add_new_pairs(&filter, &mut changes.added);
@@ -240,7 +241,8 @@ impl<V: Vector> BroadPhase<V> {
             Volume::Box(bounds) => {
                 // Of two marked boxes, the one with the smaller id reports the pair.
                 self.tree.query(bounds, stack, |other| {
-                    if other > id || (other < id && self.marks[other as usize] == Mark::Clean) {
+                    let reports = other > id || (other < id && self.marks[other as usize] == Mark::Clean);
+                    if reports && self.proxy(other).is_some_and(|other| other.fat.overlaps(&proxy.fat)) {
                         add(other);
                     }
                 });
@@ -298,21 +300,20 @@ impl<V: Vector> BroadPhase<V> {
             self.proxies.resize(id as usize + 1, None);
             self.marks.resize(id as usize + 1, Mark::Clean);
         }
-        let leaf = match fat {
-            // An empty or NaN box does not even overlap itself; it meets nothing, and must not spoil the boxes above it.
-            Volume::Box(bounds) => bounds.overlaps(&bounds).then(|| self.tree.insert(id, bounds)),
-            Volume::HalfSpace { .. } => {
-                self.half_spaces.push(id);
-                None
-            }
-        };
-        self.proxies[id as usize] = Some(Proxy { fat, leaf });
+        // An empty or NaN box does not even overlap itself; it meets nothing, and must not spoil the boxes above it.
+        let in_tree = matches!(&fat, Volume::Box(bounds) if bounds.overlaps(bounds));
+        match &fat {
+            Volume::Box(bounds) if in_tree => self.tree.insert(id, bounds),
+            Volume::Box(_) => {}
+            Volume::HalfSpace { .. } => self.half_spaces.push(id),
+        }
+        self.proxies[id as usize] = Some(Proxy { fat, in_tree });
         self.mark(id, Mark::Changed);
     }
 
     fn displace(&mut self, id: u32) {
         match self.proxies[id as usize].take() {
-            Some(Proxy { leaf: Some(leaf), .. }) => self.tree.remove(leaf),
+            Some(Proxy { in_tree: true, .. }) => self.tree.remove(id),
             _ => self.half_spaces.retain(|&other| other != id),
         }
     }

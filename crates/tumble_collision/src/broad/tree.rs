@@ -1,214 +1,271 @@
-//! A tree of boxes that is changed leaf by leaf.
+//! A tree of boxes with eight children to a node: sorted now and then, and mended in between.
 //!
 //! ```text
-//!            ┌───────────────┐          every node's box holds those of its two children;
-//!            │ ┌─────┐ ┌───┐ │          a query walks down only where boxes overlap
-//!            │ │ a b │ │ c │ │
-//!            │ └─────┘ └───┘ │
-//!            └───────────────┘
+//!            ┌─────────────────┐        each node knows the boxes of its eight children, so that a query
+//!            │ ┌──┐┌──┐   ┌──┐ │        compares all of them at once and goes on where they overlap
+//!            │ └──┘└──┘ … └──┘ │
+//!            └─────────────────┘
 //! ```
 //!
-//! A new leaf goes where it makes the sum of all node sizes grow least (surface-area heuristic, found by greedy descent), and on the
-//! way back up each node may swap a child with a grandchild when that shrinks a box (tree rotations). After Catto, *Dynamic
-//! Bounding Volume Hierarchies* (GDC 2019).
+//! A leaf whose box changes stays where it is, and the boxes above it follow. After as many changes as there are leaves all are sorted
+//! anew: halved along the longest side of what their centres span, again and again. Boxes are rounded outwards to single precision:
+//! a query finds every leaf that overlaps, and perhaps one that nearly does.
+
+use std::ops::Range;
 
 use tumble_math::{Bounds, Vector};
 
-/// Stands for no node and no proxy.
+/// Children of a node.
+const WIDTH: usize = 8;
+/// Stands for no place.
 const NONE: u32 = u32::MAX;
+/// Marks a child that is a leaf: the rest of the number is its proxy.
+const LEAF: u32 = 1 << 31;
 
+/// A box in single precision around one in double precision. In the plane the third axis is not used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct SmallBox {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+impl SmallBox {
+    fn around<V: Vector>(bounds: &Bounds<V>) -> Self {
+        let mut small = Self { low: [0.0; 3], high: [0.0; 3] };
+        for axis in 0..V::AXES {
+            let (low, high) = (bounds.min[axis] as f32, bounds.max[axis] as f32);
+            small.low[axis] = if f64::from(low) > bounds.min[axis] { low.next_down() } else { low };
+            small.high[axis] = if f64::from(high) < bounds.max[axis] { high.next_up() } else { high };
+        }
+        small
+    }
+}
+
+/// The boxes of eight children, axis by axis; those of empty places are NaN, which overlaps nothing.
 #[derive(Clone, Debug)]
-struct Node<V> {
-    bounds: Bounds<V>,
+struct Node {
+    low: [[f32; WIDTH]; 3],
+    high: [[f32; WIDTH]; 3],
+    children: [u32; WIDTH],
+    /// Place in the node above; [`NONE`] at the root.
     parent: u32,
-    /// Both [`NONE`] in a leaf.
-    children: [u32; 2],
-    /// The proxy of a leaf; [`NONE`] in other nodes.
+}
+
+impl Node {
+    fn empty(parent: u32) -> Self {
+        Self {
+            low: [[f32::NAN; WIDTH]; 3],
+            high: [[f32::NAN; WIDTH]; 3],
+            children: [NONE; WIDTH],
+            parent,
+        }
+    }
+
+    fn bounds_of(&self, slot: usize) -> SmallBox {
+        SmallBox { low: self.low.map(|low| low[slot]), high: self.high.map(|high| high[slot]) }
+    }
+
+    fn set_bounds(&mut self, slot: usize, bounds: &SmallBox) {
+        for axis in 0..3 {
+            self.low[axis][slot] = bounds.low[axis];
+            self.high[axis][slot] = bounds.high[axis];
+        }
+    }
+
+    /// The box around all children.
+    fn bounds(&self) -> SmallBox {
+        SmallBox {
+            low: self.low.map(|low| low.into_iter().fold(f32::INFINITY, f32::min)),
+            high: self.high.map(|high| high.into_iter().fold(f32::NEG_INFINITY, f32::max)),
+        }
+    }
+
+    /// Which children overlap a box, one bit each.
+    #[inline]
+    fn overlapping(&self, bounds: &SmallBox, axes: usize) -> u32 {
+        let mut hits = [u32::MAX; WIDTH];
+        for axis in 0..axes {
+            let (low, high) = (bounds.low[axis], bounds.high[axis]);
+            for ((hit, child_low), child_high) in hits.iter_mut().zip(&self.low[axis]).zip(&self.high[axis]) {
+                *hit &= 0_u32.wrapping_sub(u32::from((*child_low <= high) & (*child_high >= low)));
+            }
+        }
+        (0..WIDTH as u32).zip(hits).map(|(slot, hit)| hit & 1 << slot).sum()
+    }
+}
+
+/// What is sorted: a leaf by its centre.
+#[derive(Clone, Copy, Debug)]
+struct Item {
+    centre: [f32; 3],
     proxy: u32,
 }
 
-impl<V> Node<V> {
-    fn is_leaf(&self) -> bool {
-        self.children[0] == NONE
-    }
+/// A tree of boxes; its leaves are proxies with dense ids.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tree {
+    /// The first is the root.
+    nodes: Vec<Node>,
+    /// Box of each proxy that is in the tree.
+    leaves: Vec<Option<SmallBox>>,
+    /// Place of each proxy, node and child in one number; [`NONE`] until it is sorted in.
+    places: Vec<u32>,
+    /// Number of leaves, and of changes since they were sorted.
+    count: usize,
+    changes: usize,
+    /// Whether a leaf waits to be sorted in.
+    waits: bool,
+    /// Scratch space.
+    items: Vec<Item>,
 }
 
-/// A dynamic tree of boxes; leaves carry the ids of proxies.
-#[derive(Clone, Debug)]
-pub(super) struct Tree<V> {
-    nodes: Vec<Node<V>>,
-    free: Vec<u32>,
-    root: u32,
-}
-
-impl<V> Default for Tree<V> {
-    fn default() -> Self {
-        Self { nodes: Vec::new(), free: Vec::new(), root: NONE }
-    }
-}
-
-impl<V: Vector> Tree<V> {
-    /// Adds a leaf and returns its handle.
-    pub(super) fn insert(&mut self, proxy: u32, bounds: Bounds<V>) -> u32 {
-        let leaf = self.allocate(Node { bounds, parent: NONE, children: [NONE; 2], proxy });
-        self.attach(leaf);
-        leaf
+impl Tree {
+    /// Adds a proxy.
+    pub(super) fn insert<V: Vector>(&mut self, proxy: u32, bounds: &Bounds<V>) {
+        let index = proxy as usize;
+        if self.leaves.len() <= index {
+            self.leaves.resize(index + 1, None);
+            self.places.resize(index + 1, NONE);
+        }
+        self.leaves[index] = Some(SmallBox::around(bounds));
+        self.places[index] = NONE;
+        self.count += 1;
+        self.waits = true;
     }
 
-    /// Takes a leaf out.
-    pub(super) fn remove(&mut self, leaf: u32) {
-        self.detach(leaf);
-        self.free.push(leaf);
+    /// Takes a proxy out.
+    pub(super) fn remove(&mut self, proxy: u32) {
+        let index = proxy as usize;
+        if self.leaves[index].take().is_none() {
+            return;
+        }
+        self.count -= 1;
+        let place = std::mem::replace(&mut self.places[index], NONE);
+        if place != NONE {
+            self.nodes[place as usize / WIDTH].children[place as usize % WIDTH] = NONE;
+            self.change(place, &Node::empty(NONE).bounds_of(0));
+        }
     }
 
-    /// Gives a leaf a new box; its handle stays.
-    pub(super) fn replace(&mut self, leaf: u32, bounds: Bounds<V>) {
-        self.detach(leaf);
-        self.node_mut(leaf).bounds = bounds;
-        self.attach(leaf);
+    /// Gives a proxy a new box.
+    pub(super) fn replace<V: Vector>(&mut self, proxy: u32, bounds: &Bounds<V>) {
+        let bounds = SmallBox::around(bounds);
+        self.leaves[proxy as usize] = Some(bounds);
+        let place = self.places[proxy as usize];
+        if place != NONE {
+            self.change(place, &bounds);
+        }
     }
 
-    /// Calls `visit` with the proxy of every leaf whose box overlaps; `stack` is scratch space.
-    pub(super) fn query(&self, bounds: &Bounds<V>, stack: &mut Vec<u32>, mut visit: impl FnMut(u32)) {
+    /// Sorts the leaves, if some wait for it or many have changed: to be called before queries.
+    pub(super) fn sort<V: Vector>(&mut self) {
+        if !self.waits && self.changes <= self.count {
+            return;
+        }
+        (self.waits, self.changes) = (false, 0);
+        self.nodes.clear();
+        let mut items = std::mem::take(&mut self.items);
+        items.clear();
+        let leaves = (0..).zip(&self.leaves).filter_map(|(proxy, bounds)| Some((proxy, bounds.as_ref()?)));
+        items.extend(leaves.map(|(proxy, SmallBox { low, high })| Item {
+            centre: [0, 1, 2].map(|axis| 0.5 * low[axis] + 0.5 * high[axis]),
+            proxy,
+        }));
+        if !items.is_empty() {
+            self.build::<V>(&mut items, NONE);
+        }
+        self.items = items;
+    }
+
+    /// Calls `visit` with every proxy whose box overlaps; `stack` is scratch space.
+    pub(super) fn query<V: Vector>(&self, bounds: &Bounds<V>, stack: &mut Vec<u32>, mut visit: impl FnMut(u32)) {
+        let bounds = SmallBox::around(bounds);
         stack.clear();
-        if self.root != NONE {
-            stack.push(self.root);
+        if !self.nodes.is_empty() {
+            stack.push(0);
         }
         while let Some(index) = stack.pop() {
-            let node = self.node(index);
-            if !node.bounds.overlaps(bounds) {
-                continue;
-            }
-            if node.is_leaf() {
-                visit(node.proxy);
-            } else {
-                stack.extend(node.children);
-            }
-        }
-    }
-
-    fn attach(&mut self, leaf: u32) {
-        if self.root == NONE {
-            self.root = leaf;
-            self.node_mut(leaf).parent = NONE;
-            return;
-        }
-        let sibling = self.best_sibling(self.node(leaf).bounds);
-        let grandparent = self.node(sibling).parent;
-        let bounds = self.node(leaf).bounds.join(self.node(sibling).bounds);
-        let parent = self.allocate(Node { bounds, parent: grandparent, children: [sibling, leaf], proxy: NONE });
-        self.node_mut(leaf).parent = parent;
-        self.node_mut(sibling).parent = parent;
-        self.replace_child(grandparent, sibling, parent);
-        self.refit_upwards(grandparent);
-    }
-
-    fn detach(&mut self, leaf: u32) {
-        let parent = self.node(leaf).parent;
-        if parent == NONE {
-            self.root = NONE;
-            return;
-        }
-        let sibling = self.other_child(parent, leaf);
-        let grandparent = self.node(parent).parent;
-        self.node_mut(sibling).parent = grandparent;
-        self.replace_child(grandparent, parent, sibling);
-        self.free.push(parent);
-        self.refit_upwards(grandparent);
-    }
-
-    /// The node beside which a new leaf costs least, by greedy descent from the root.
-    fn best_sibling(&self, leaf: Bounds<V>) -> u32 {
-        let mut index = self.root;
-        loop {
-            let node = self.node(index);
-            if node.is_leaf() {
-                return index;
-            }
-            // A new parent here has the joined size, and deeper choices all make this node grow to it.
-            let joined = node.bounds.join(leaf).half_perimeter();
-            let growth_here = joined - node.bounds.half_perimeter();
-            let descent_cost = |child: u32| {
-                let child = self.node(child);
-                let joined = child.bounds.join(leaf).half_perimeter();
-                growth_here + if child.is_leaf() { joined } else { joined - child.bounds.half_perimeter() }
-            };
-            let costs = node.children.map(descent_cost);
-            if joined < costs[0] && joined < costs[1] {
-                return index;
-            }
-            index = node.children[usize::from(costs[1] < costs[0])];
-        }
-    }
-
-    fn refit_upwards(&mut self, mut index: u32) {
-        while index != NONE {
-            self.rotate(index);
-            let [left, right] = self.node(index).children;
-            let bounds = self.node(left).bounds.join(self.node(right).bounds);
-            let node = self.node_mut(index);
-            // What does not change here changes nothing above.
-            if node.bounds == bounds {
-                return;
-            }
-            node.bounds = bounds;
-            index = node.parent;
-        }
-    }
-
-    /// Swaps a child with a grandchild under the other child, if that shrinks the other child's box.
-    fn rotate(&mut self, index: u32) {
-        let children = self.node(index).children;
-        let mut best: Option<(f64, [u32; 4])> = None;
-        for (child, parent) in [(children[0], children[1]), (children[1], children[0])] {
-            let node = self.node(parent);
-            if node.is_leaf() {
-                continue;
-            }
-            let size = node.bounds.half_perimeter();
-            for (grandchild, stays) in [(node.children[0], node.children[1]), (node.children[1], node.children[0])] {
-                let shrinks = size - self.node(child).bounds.join(self.node(stays).bounds).half_perimeter();
-                if shrinks > best.map_or(0.0, |(most, _)| most) {
-                    best = Some((shrinks, [child, parent, grandchild, stays]));
+            let node = &self.nodes[index as usize];
+            let mut hits = node.overlapping(&bounds, V::AXES);
+            while hits != 0 {
+                let child = node.children[hits.trailing_zeros() as usize];
+                hits &= hits - 1;
+                if child & LEAF != 0 {
+                    visit(child & !LEAF);
+                } else {
+                    stack.push(child);
                 }
             }
         }
-        let Some((_, [child, parent, grandchild, stays])) = best else { return };
-        self.replace_child(index, child, grandchild);
-        self.replace_child(parent, grandchild, child);
-        self.node_mut(grandchild).parent = index;
-        self.node_mut(child).parent = parent;
-        self.node_mut(parent).bounds = self.node(child).bounds.join(self.node(stays).bounds);
     }
 
-    fn replace_child(&mut self, parent: u32, old: u32, new: u32) {
-        if parent == NONE {
-            self.root = new;
-            return;
+    /// Makes a node of some leaves, and of what is below it; returns its index.
+    fn build<V: Vector>(&mut self, items: &mut [Item], parent: u32) -> u32 {
+        let index = self.nodes.len();
+        self.nodes.push(Node::empty(parent));
+        let place = |slot: usize| (index * WIDTH + slot) as u32;
+        if items.len() <= WIDTH {
+            for (slot, item) in items.iter().enumerate() {
+                self.nodes[index].children[slot] = LEAF | item.proxy;
+                self.places[item.proxy as usize] = place(slot);
+                if let Some(bounds) = &self.leaves[item.proxy as usize] {
+                    self.nodes[index].set_bounds(slot, bounds);
+                }
+            }
+            return index as u32;
         }
-        let children = &mut self.node_mut(parent).children;
-        children[usize::from(children[1] == old)] = new;
-    }
-
-    fn other_child(&self, parent: u32, child: u32) -> u32 {
-        let children = self.node(parent).children;
-        children[usize::from(children[0] == child)]
-    }
-
-    fn allocate(&mut self, node: Node<V>) -> u32 {
-        if let Some(index) = self.free.pop() {
-            *self.node_mut(index) = node;
-            return index;
+        // Full nodes below, and as few of them as can be.
+        let mut below = WIDTH;
+        while below * WIDTH < items.len() {
+            below *= WIDTH;
         }
-        self.nodes.push(node);
-        self.nodes.len() as u32 - 1
+        let mut groups = [const { 0..0 }; WIDTH];
+        let count = items.len().div_ceil(below);
+        divide::<V>(items, 0, &mut groups[..count]);
+        for (slot, group) in groups[..count].iter().enumerate() {
+            let child = self.build::<V>(&mut items[group.clone()], place(slot));
+            let bounds = self.nodes[child as usize].bounds();
+            self.nodes[index].children[slot] = child;
+            self.nodes[index].set_bounds(slot, &bounds);
+        }
+        index as u32
     }
 
-    fn node(&self, index: u32) -> &Node<V> {
-        &self.nodes[index as usize]
+    /// Gives the child at a place a new box, and those above it theirs.
+    fn change(&mut self, mut place: u32, bounds: &SmallBox) {
+        self.changes += 1;
+        let mut bounds = *bounds;
+        while place != NONE {
+            let (node, slot) = (&mut self.nodes[place as usize / WIDTH], place as usize % WIDTH);
+            // What does not change here changes nothing above.
+            if node.bounds_of(slot) == bounds {
+                return;
+            }
+            node.set_bounds(slot, &bounds);
+            (place, bounds) = (node.parent, node.bounds());
+        }
     }
+}
 
-    fn node_mut(&mut self, index: u32) -> &mut Node<V> {
-        &mut self.nodes[index as usize]
+/// Divides items into groups of nearly the same size that lie together; `first` is the index of the first item.
+fn divide<V: Vector>(items: &mut [Item], first: usize, groups: &mut [Range<usize>]) {
+    if let [group] = groups {
+        *group = first..first + items.len();
+        return;
     }
+    let half = groups.len() / 2;
+    let middle = items.len() * half / groups.len();
+    let span = |axis: usize| {
+        let coordinates = items.iter().map(|item| item.centre[axis]);
+        let (low, high) = coordinates.fold((f32::INFINITY, f32::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        high - low
+    };
+    let axis = (0..V::AXES).max_by(|one, other| span(*one).total_cmp(&span(*other))).unwrap_or(0);
+    items.select_nth_unstable_by(middle, |one, other| {
+        one.centre[axis].total_cmp(&other.centre[axis]).then(one.proxy.cmp(&other.proxy))
+    });
+    let (low, high) = items.split_at_mut(middle);
+    let (low_groups, high_groups) = groups.split_at_mut(half);
+    divide::<V>(low, first, low_groups);
+    divide::<V>(high, first + middle, high_groups);
 }
