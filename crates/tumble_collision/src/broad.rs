@@ -129,26 +129,33 @@ impl<V: Vector> BroadPhase<V> {
     ///
     /// Returns whether the fat volume is a new one.
     pub fn update_moving(&mut self, id: u32, volume: Volume<V>, travel: V, fat_margin: f64) -> bool {
-        let fat = volume.swept(travel).grown(fat_margin);
-        let Some(proxy) = self.proxy(id) else {
-            self.place(id, fat);
-            return true;
-        };
+        let holds = self.holds(id, &volume, travel, fat_margin);
+        if !holds {
+            self.refit(id, volume.swept(travel).grown(fat_margin));
+        }
+        !holds
+    }
+
+    /// Whether a proxy is still inside its fat volume, and that is not needlessly wide.
+    pub fn holds(&self, id: u32, volume: &Volume<V>, travel: V, fat_margin: f64) -> bool {
         let wide = 4.0 * (fat_margin + travel.length());
-        if proxy.fat.contains(&volume) && volume.grown(wide).contains(&proxy.fat) {
-            return false;
+        self.proxy(id).is_some_and(|proxy| proxy.fat.contains(volume) && volume.grown(wide).contains(&proxy.fat))
+    }
+
+    /// Gives a proxy another fat volume, or places a new one.
+    pub fn refit(&mut self, id: u32, fat: Volume<V>) {
+        match (self.proxy(id), fat) {
+            (None, _) => self.place(id, fat),
+            (Some(Proxy { in_tree: true, .. }), Volume::Box(bounds)) if bounds.overlaps(&bounds) => {
+                self.tree.replace(id, &bounds);
+                self.proxies[id as usize] = Some(Proxy { fat, in_tree: true });
+                self.mark(id, Mark::Changed);
+            }
+            (Some(_), _) => {
+                self.displace(id);
+                self.place(id, fat);
+            }
         }
-        if let (true, Volume::Box(bounds)) = (proxy.in_tree, fat)
-            && bounds.overlaps(&bounds)
-        {
-            self.tree.replace(id, &bounds);
-            self.proxies[id as usize] = Some(Proxy { fat, in_tree: true });
-            self.mark(id, Mark::Changed);
-        } else {
-            self.displace(id);
-            self.place(id, fat);
-        }
-        true
     }
 
     /// Asks the filter again about all pairs of a proxy at the next [`update_pairs`](Self::update_pairs).

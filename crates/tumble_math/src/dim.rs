@@ -34,16 +34,14 @@ pub trait Dim: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     /// The matrix of a rotation, body to world.
     fn matrix(rotation: &Self::Rotation) -> Self::Matrix;
 
-    /// Rotation and rate of turn after one step without torque; see the implicit midpoint rule in the source.
+    /// Rotation and rate of turn after one step without torque; `inertia` and its inverse are in the body frame.
     fn turn_freely(
         rotation: Self::Rotation,
         inertia: &Self::Inertia,
         inverse_inertia: &Self::Inertia,
         angular_velocity: Self::Angular,
         dt: f64,
-    ) -> (Self::Rotation, Self::Angular) {
-        inertia::turn_freely(rotation, inertia, inverse_inertia, angular_velocity, dt)
-    }
+    ) -> (Self::Rotation, Self::Angular);
 
     /// The constant rate of turn with which [`turn_freely`](Self::turn_freely) turns a body; `inertia` is in the axes of `rotation`.
     fn midpoint_rate(
@@ -52,9 +50,7 @@ pub trait Dim: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
         inverse_inertia: &Self::Inertia,
         angular_velocity: Self::Angular,
         dt: f64,
-    ) -> Self::Angular {
-        inertia::midpoint_rate(rotation, inertia, inverse_inertia, angular_velocity, dt)
-    }
+    ) -> Self::Angular;
 }
 
 /// Mechanics in the plane: one angle, counter-clockwise.
@@ -91,6 +87,16 @@ impl Dim for Planar {
     #[inline]
     fn matrix(rotation: &PlanarRotation) -> DMat2 {
         rotation.to_matrix()
+    }
+
+    #[inline]
+    fn turn_freely(rotation: PlanarRotation, _: &f64, _: &f64, rate: f64, dt: f64) -> (PlanarRotation, f64) {
+        (rotation.turned(rate * dt), rate)
+    }
+
+    #[inline]
+    fn midpoint_rate(_: PlanarRotation, _: &f64, _: &f64, rate: f64, _: f64) -> f64 {
+        rate
     }
 }
 
@@ -132,5 +138,26 @@ impl Dim for Spatial {
     #[inline]
     fn matrix(rotation: &SpatialRotation) -> DMat3 {
         rotation.to_matrix()
+    }
+
+    /// By the implicit midpoint rule.
+    fn turn_freely(
+        rotation: SpatialRotation,
+        inertia: &SymmetricTensor,
+        inverse_inertia: &SymmetricTensor,
+        angular_velocity: DVec3,
+        dt: f64,
+    ) -> (SpatialRotation, DVec3) {
+        inertia::turn_freely(rotation, inertia, inverse_inertia, angular_velocity, dt)
+    }
+
+    fn midpoint_rate(
+        rotation: SpatialRotation,
+        inertia: &SymmetricTensor,
+        inverse_inertia: &SymmetricTensor,
+        angular_velocity: DVec3,
+        dt: f64,
+    ) -> DVec3 {
+        inertia::midpoint_rate(rotation, inertia, inverse_inertia, angular_velocity, dt)
     }
 }

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-use crate::{Angular, PlanarRotation, Rotation, SpatialRotation};
+use crate::{Angular, PlanarRotation, Rotation, SpatialRotation, trig};
 
 /// Inertia about the centre of mass, or its inverse, as a linear map between rates of turn and angular momenta.
 pub trait Inertia<W: Angular, R>: Copy + std::fmt::Debug + Default + PartialEq + Send + Sync + 'static {
@@ -132,19 +132,23 @@ impl Inertia<DVec3, SpatialRotation> for SymmetricTensor {
 /// ```
 ///
 /// The implicit midpoint rule: second order, symmetric in time (so that the energy of free rotation does not drift), and L is kept to
-/// round-off because ω⁺ is computed from it. `inertia` and `inverse` are in the body frame. In the plane it is angle += ω Δt.
-pub fn turn_freely<W, R, I>(rotation: R, inertia: &I, inverse: &I, angular_velocity: W, dt: f64) -> (R, W)
-where
-    W: Angular,
-    R: Rotation<W>,
-    I: Inertia<W, R>,
-{
-    let turned = rotation.turned(midpoint_rate(rotation, inertia, inverse, angular_velocity, dt) * dt);
-    if R::INERTIA_IS_CONSTANT || inertia.is_spherical() {
-        return (turned, angular_velocity);
+/// round-off because ω⁺ is computed from it. `inertia` and `inverse` are in the body frame.
+pub(crate) fn turn_freely(
+    rotation: SpatialRotation,
+    inertia: &SymmetricTensor,
+    inverse: &SymmetricTensor,
+    angular_velocity: DVec3,
+    dt: f64,
+) -> (SpatialRotation, DVec3) {
+    if inertia.is_spherical() {
+        return (rotation.turned(angular_velocity * dt), angular_velocity);
     }
-    let momentum = inertia.in_world(&rotation).apply(angular_velocity);
-    (turned, inverse.in_world(&turned).apply(momentum))
+    let axes = rotation.to_matrix();
+    let momentum = inertia.apply(axes.transpose() * angular_velocity);
+    let rate = midpoint_rate_in_body(momentum, inverse, axes.transpose() * angular_velocity, dt);
+    let turned = rotation.turned(axes * rate * dt);
+    let axes_then = turned.to_matrix();
+    (turned, axes_then * inverse.apply(axes_then.transpose() * (axes * momentum)))
 }
 
 /// The constant rate of turn that takes a rotation through one step under constant angular momentum, by the implicit midpoint rule.
@@ -153,26 +157,56 @@ where
 /// ω½ = I⁻¹(R½) L,   R½ = exp(½Δt ω½) R,   L = I(R) ω
 /// ```
 ///
-/// Solved by fixed-point iteration. Inertia tensors that are given in world axes go with the rotation of identity.
-pub fn midpoint_rate<W, R, I>(rotation: R, inertia: &I, inverse: &I, angular_velocity: W, dt: f64) -> W
-where
-    W: Angular,
-    R: Rotation<W>,
-    I: Inertia<W, R>,
-{
-    if R::INERTIA_IS_CONSTANT || inertia.is_spherical() {
+/// Inertia tensors that are given in world axes go with the rotation of identity.
+pub(crate) fn midpoint_rate(
+    rotation: SpatialRotation,
+    inertia: &SymmetricTensor,
+    inverse: &SymmetricTensor,
+    angular_velocity: DVec3,
+    dt: f64,
+) -> DVec3 {
+    if inertia.is_spherical() {
         return angular_velocity;
     }
-    let momentum = inertia.in_world(&rotation).apply(angular_velocity);
-    let mut middle = angular_velocity;
-    // Converges like (ω Δt / 2)ᵏ; the bound only matters for steps that turn by a radian or more.
+    let axes = rotation.to_matrix();
+    let rate = axes.transpose() * angular_velocity;
+    axes * midpoint_rate_in_body(inertia.apply(rate), inverse, rate, dt)
+}
+
+/// The midpoint rate in the body frame: turning about itself leaves it as it is, so that there it solves
+///
+/// ```text
+/// u = I⁻¹ exp(φ) L,   φ = −½Δt u        by Newton's method, with d(exp(φ) L) = ½Δt (exp(φ) L) × J(φ) du
+/// ```
+///
+/// and J(φ) = 1 + B φ× + C φ×φ× the left Jacobian of the rotation vector (Solà et al. 2018, eq. 145).
+fn midpoint_rate_in_body(momentum: DVec3, inverse: &SymmetricTensor, first_guess: DVec3, dt: f64) -> DVec3 {
+    /// The error of a Newton step is about the square of its length: after one as short as this it is below round-off.
+    const SHORT: f64 = 1e-9;
+    let half_step = 0.5 * dt;
+    let mut rate = first_guess;
+    // The bound only matters for steps that turn by more than a radian.
     for _ in 0..50 {
-        let next = inverse.in_world(&rotation.turned(middle * (0.5 * dt))).apply(momentum);
-        let change = (next - middle).length();
-        middle = next;
-        if change <= 1e-15 * middle.length() {
+        let angle = rate * -half_step;
+        let squared = angle.dot(angle);
+        let (a, b) = trig::sinc_and_versinc(squared);
+        let c = if squared < 1e-4 { 1.0 / 6.0 } else { (1.0 - a) / squared };
+        let across = angle.cross(momentum);
+        let turned = momentum + across * a + angle.cross(across) * b;
+        let derivative = |du: DVec3| {
+            let across = angle.cross(du);
+            let moved = du + across * b + angle.cross(across) * c;
+            du - inverse.apply(turned.cross(moved) * half_step)
+        };
+        let jacobian = DMat3::from_cols(derivative(DVec3::X), derivative(DVec3::Y), derivative(DVec3::Z));
+        let step = jacobian.inverse() * (inverse.apply(turned) - rate);
+        if !step.is_finite() {
+            break;
+        }
+        rate += step;
+        if step.dot(step) <= SHORT * SHORT * rate.dot(rate) {
             break;
         }
     }
-    middle
+    rate
 }

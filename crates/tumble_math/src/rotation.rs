@@ -204,11 +204,10 @@ impl Rotation<DVec3> for SpatialRotation {
     }
 
     fn turned(&self, angle: DVec3) -> Self {
-        let full = Linear::length(angle);
-        let (sin, cos) = trig::sin_cos(0.5 * full);
-        // sin(½a)/a, by its series where the quotient would lose digits: the first term left out is below a⁴/3840.
-        let ratio = if full < 1e-4 { 0.5 - full * full / 48.0 } else { sin / full };
-        let v = angle * ratio;
+        let half = angle * 0.5;
+        let squared = half.dot(half);
+        let (sinc, versinc) = trig::sinc_and_versinc(squared);
+        let (v, cos) = (half * sinc, 1.0 - squared * versinc);
         let product = DQuat::from_xyzw(v.x, v.y, v.z, cos) * self.quaternion;
         Self { quaternion: product * (1.0 / product.length()) }
     }

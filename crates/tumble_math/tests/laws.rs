@@ -115,6 +115,26 @@ proptest! {
     }
 
     #[test]
+    fn midpoint_rate_solves_its_equation(tensor in tensor(), angle in vector3(), w in vector3(), dt in 1e-6..0.1) {
+        let inverse = tensor.try_inverse().unwrap();
+        let rotation = SpatialRotation::from_rotation_vector(angle);
+        let momentum = tensor.in_world(&rotation).apply(w);
+        let rate = Spatial::midpoint_rate(rotation, &tensor, &inverse, w, dt);
+        let middle = rotation.turned(rate * (0.5 * dt));
+        let should = inverse.in_world(&middle).apply(momentum);
+        // The condition number of these tensors is below 1e2.
+        prop_assert!((rate - should).length() <= 1e-13 * (1.0 + should.length()), "{rate} is not {should}");
+    }
+
+    #[test]
+    fn series_of_turning_meet_the_functions(x in 1e-3..10.0_f64) {
+        let (sinc, versinc) = trig::sinc_and_versinc(x * x);
+        prop_assert!((sinc - trig::sin(x) / x).abs() < 4e-16, "{sinc}");
+        let half = trig::sin(0.5 * x);
+        prop_assert!((versinc - 2.0 * half * half / (x * x)).abs() < 4e-16, "{versinc}");
+    }
+
+    #[test]
     fn bounds_hold_what_they_were_made_around(a in vector2(), b in vector2(), c in vector2()) {
         let all = Bounds::around([a, b, c]);
         prop_assert!(all.contains(&Bounds::around([a, c])));

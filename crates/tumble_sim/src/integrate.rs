@@ -151,10 +151,14 @@ pub fn update_positions<D: Geometry>(
             w = (previous.angular + w) * 0.5;
         }
         let mut x = position.0 + v * clock.part();
-        let mut turned = angular_velocity.0;
-        let mut rotation = orientation.0.turned(w * clock.part());
-        if !inertia.0.is_spherical() && inverse.0 != D::Inertia::ZERO {
-            (rotation, _) = D::turn_freely(orientation.0, &inertia.0, &inverse.0, w, clock.part());
+        // Locked bodies and spheres turn steadily.
+        let steady = inertia.0.is_spherical() || inverse.0 == D::Inertia::ZERO;
+        let (mut rotation, mut turned) = if steady {
+            (orientation.0.turned(w * clock.part()), angular_velocity.0)
+        } else {
+            D::turn_freely(orientation.0, &inertia.0, &inverse.0, w, clock.part())
+        };
+        if previous.is_some() && !steady {
             let momentum = inertia.0.in_world(&orientation.0).apply(angular_velocity.0);
             turned = inverse.0.in_world(&rotation).apply(momentum);
         }

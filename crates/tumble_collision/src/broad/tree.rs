@@ -53,12 +53,7 @@ struct Node {
 
 impl Node {
     fn empty(parent: u32) -> Self {
-        Self {
-            low: [[f32::NAN; WIDTH]; 3],
-            high: [[f32::NAN; WIDTH]; 3],
-            children: [NONE; WIDTH],
-            parent,
-        }
+        Self { low: [[f32::NAN; WIDTH]; 3], high: [[f32::NAN; WIDTH]; 3], children: [NONE; WIDTH], parent }
     }
 
     fn bounds_of(&self, slot: usize) -> SmallBox {

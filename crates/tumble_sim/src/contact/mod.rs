@@ -7,6 +7,7 @@
 //! ```
 
 mod approach;
+mod bounds;
 mod colliders;
 mod detect;
 mod found;

@@ -5,6 +5,10 @@
 
 use bevy_ecs::prelude::*;
 use tumble_collision::PairChanges;
+use tumble_team::Team;
+
+/// Near pairs that a thread takes at a time.
+const PAIRS_OF_A_TASK: usize = 2048;
 
 /// Ranks of two parts, the smaller one first.
 pub(super) type PartRanks = (u32, u32);
@@ -26,6 +30,8 @@ pub(super) struct NearPairs {
     pub(super) ended: Vec<Entity>,
     /// Places of pairs that need a contact.
     pub(super) began: Vec<u32>,
+    /// Those that each thread found.
+    found: Vec<Vec<u32>>,
 }
 
 impl NearPairs {
@@ -65,9 +71,16 @@ impl NearPairs {
     }
 
     /// Notes which pairs need a contact: those that have none and are not apart any more.
-    pub(super) fn meet(&mut self, are_apart: impl Fn(PartRanks) -> bool) {
-        let needs = |pair: &NearPair| pair.contact.is_none() && !are_apart(pair.parts);
+    pub(super) fn meet(&mut self, team: &Team, are_apart: impl Fn(PartRanks) -> bool + Sync) {
+        let tasks = self.pairs.len().div_ceil(PAIRS_OF_A_TASK);
+        self.found.resize_with(tasks.max(self.found.len()), Vec::new);
+        let chunks = self.pairs.chunks(PAIRS_OF_A_TASK).zip(&mut self.found).enumerate();
+        team.share(chunks, |(k, (pairs, found))| {
+            let needs = |pair: &NearPair| pair.contact.is_none() && !are_apart(pair.parts);
+            let places = (k * PAIRS_OF_A_TASK) as u32..;
+            found.extend(places.zip(pairs).filter(|(_, pair)| needs(pair)).map(|(place, _)| place));
+        });
         self.began.clear();
-        self.began.extend((0..).zip(&self.pairs).filter(|(_, pair)| needs(pair)).map(|(place, _)| place));
+        self.found[..tasks].iter_mut().for_each(|found| self.began.append(found));
     }
 }

@@ -7,7 +7,8 @@ use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::prelude::*;
 use tumble_math::Linear;
 
-use super::detect::{BodyMotion, PartBounds};
+use super::bounds::PartBounds;
+use super::detect::BodyMotion;
 use super::reuse::REUSE_TOLERANCE;
 use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, Detection, IN_TABLES};
 use super::{ContactReuse, PointMemory, Touch, TouchPhase};

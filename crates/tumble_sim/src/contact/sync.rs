@@ -20,7 +20,7 @@ pub fn sync_pairs<D: Geometry>(world: &mut World) {
         return;
     }
     let mut near = std::mem::take(near);
-    let NearPairs { pairs, ended, began } = &mut near;
+    let NearPairs { pairs, ended, began, .. } = &mut near;
     let (table, colliders) = (world.resource::<BodyTable>(), world.resource::<Colliders<D>>().as_slice());
     let materials = world.resource::<Materials>();
     let fresh: Vec<ContactPair> = (began.iter().map(|place| pairs[*place as usize].parts))
