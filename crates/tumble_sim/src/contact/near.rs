@@ -32,6 +32,8 @@ pub(super) struct NearPairs {
     pub(super) began: Vec<u32>,
     /// Those that each thread found.
     found: Vec<Vec<u32>>,
+    /// Scratch space: pairs that are new.
+    fresh: Vec<PartRanks>,
 }
 
 impl NearPairs {
@@ -61,13 +63,30 @@ impl NearPairs {
             }
             !ends
         });
-        let known = self.pairs.len();
-        let is_known = |parts: &PartRanks| self.pairs[..known].binary_search_by_key(parts, |pair| pair.parts).is_ok();
-        let fresh: Vec<PartRanks> =
-            changes.added.iter().filter(|parts| !renewed || !is_known(parts)).copied().collect();
-        self.pairs.extend(fresh.into_iter().map(|parts| NearPair { parts, contact: None }));
-        // Two runs in order, which a stable sort only merges.
-        self.pairs.sort_by_key(|pair| pair.parts);
+        self.merge(&changes.added);
+    }
+
+    /// Adds those of some pairs, in order, that are not there yet.
+    fn merge(&mut self, added: &[PartRanks]) {
+        let mut known = self.pairs.iter().peekable();
+        self.fresh.clear();
+        self.fresh.extend(added.iter().filter(|parts| {
+            while known.next_if(|pair| pair.parts < **parts).is_some() {}
+            known.peek().is_none_or(|pair| pair.parts != **parts)
+        }));
+        // From the back, so that nothing is overwritten before it is moved.
+        let mut old = self.pairs.len();
+        let mut place = old + self.fresh.len();
+        self.pairs.resize(place, NearPair { parts: (0, 0), contact: None });
+        for &parts in self.fresh.iter().rev() {
+            while old > 0 && self.pairs[old - 1].parts > parts {
+                old -= 1;
+                place -= 1;
+                self.pairs[place] = self.pairs[old];
+            }
+            place -= 1;
+            self.pairs[place] = NearPair { parts, contact: None };
+        }
     }
 
     /// Notes which pairs need a contact: those that have none and are not apart any more.
