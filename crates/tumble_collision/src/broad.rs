@@ -51,7 +51,9 @@ pub struct BroadPhase<V> {
     /// Ids whose mark is not `Clean`.
     marked: Vec<u32>,
     pairs: Vec<(u32, u32)>,
-    /// Scratch space, kept so that a steady step allocates nothing: pairs as one number each, the smaller id in its upper half.
+    /// Scratch space, kept so that a steady step allocates nothing.
+    pairs_before: Vec<(u32, u32)>,
+    /// Pairs as one number each, the smaller id in its upper half.
     candidates: Vec<u64>,
     searches: Vec<Search>,
 }
@@ -92,6 +94,7 @@ impl<V> Default for BroadPhase<V> {
             marks: Vec::new(),
             marked: Vec::new(),
             pairs: Vec::new(),
+            pairs_before: Vec::new(),
             candidates: Vec::new(),
             searches: Vec::new(),
         }
@@ -169,22 +172,20 @@ impl<V: Vector> BroadPhase<V> {
     ///
     /// `filter(smaller id, larger id)` says whether a pair is wanted; it is asked when the pair may begin, and again only when one
     /// of the two moved out of its fat volume, was replaced, or was [touched](Self::touch).
-    pub fn update_pairs(&mut self, filter: impl Fn(u32, u32) -> bool, changes: &mut PairChanges) {
+    pub fn update_pairs(&mut self, filter: impl Fn(u32, u32) -> bool + Sync, changes: &mut PairChanges) {
         self.share_pairs(&Team::alone(), filter, changes);
     }
 
     /// The same, with the search shared by a team.
-    pub fn share_pairs(&mut self, team: &Team, filter: impl Fn(u32, u32) -> bool, changes: &mut PairChanges) {
+    pub fn share_pairs(&mut self, team: &Team, filter: impl Fn(u32, u32) -> bool + Sync, changes: &mut PairChanges) {
         changes.added.clear();
         changes.removed.clear();
         if self.marked.is_empty() {
             return;
         }
-        self.drop_ended_pairs(&filter, &mut changes.removed);
         self.tree.sort::<V>();
-        self.find_candidates(team);
-        self.candidates.sort_unstable();
-        self.add_new_pairs(&filter, &mut changes.added);
+        self.find_candidates(team, &filter);
+        self.merge_candidates(changes);
         for id in self.marked.drain(..) {
             self.marks[id as usize] = Mark::Clean;
         }
@@ -207,91 +208,80 @@ impl<V: Vector> BroadPhase<V> {
         every.filter(|&(low, high)| self.fat_volumes_overlap(low, high) && filter(low, high)).collect()
     }
 
-    fn drop_ended_pairs(&mut self, filter: &impl Fn(u32, u32) -> bool, removed: &mut Vec<(u32, u32)>) {
-        let mut pairs = std::mem::take(&mut self.pairs);
-        pairs.retain(|&(low, high)| {
-            let stays = match (self.marks[low as usize], self.marks[high as usize]) {
-                (Mark::Clean, Mark::Clean) => true,
-                (Mark::Replaced, _) | (_, Mark::Replaced) => false,
-                _ => self.fat_volumes_overlap(low, high) && filter(low, high),
-            };
-            if !stays {
-                removed.push((low, high));
-            }
-            stays
-        });
-        self.pairs = pairs;
-    }
-
-    /// Collects every overlapping pair of which at least one is marked, each once.
-    fn find_candidates(&mut self, team: &Team) {
+    /// Collects every wanted pair of which at least one is marked, each once and in order.
+    fn find_candidates(&mut self, team: &Team, filter: &(impl Fn(u32, u32) -> bool + Sync)) {
         let tasks = self.marked.len().div_ceil(PROXIES_OF_A_TASK);
         let mut searches = std::mem::take(&mut self.searches);
         searches.resize_with(tasks.max(searches.len()), Search::default);
         let known = &*self;
         team.share(known.marked.chunks(PROXIES_OF_A_TASK).zip(&mut searches), |(marked, search)| {
-            marked.iter().for_each(|id| known.search(*id, search));
+            marked.iter().for_each(|id| known.search(*id, filter, search));
+            search.candidates.sort_unstable();
         });
         self.candidates.clear();
         for search in &mut searches[..tasks] {
             self.candidates.append(&mut search.candidates);
         }
+        // Runs in order, which a stable sort only merges.
+        self.candidates.sort();
         self.searches = searches;
     }
 
-    /// Collects the overlapping pairs of a marked proxy.
-    fn search(&self, id: u32, search: &mut Search) {
-        let Some(proxy) = self.proxies[id as usize] else { return };
+    /// Collects the wanted pairs of a marked proxy.
+    fn search(&self, id: u32, filter: &impl Fn(u32, u32) -> bool, search: &mut Search) {
+        let Some(proxy) = &self.proxies[id as usize] else { return };
         let Search { candidates, stack } = search;
-        let mut add = |other: u32| candidates.push(u64::from(id.min(other)) << 32 | u64::from(id.max(other)));
+        let mut look = |other: u32| {
+            let (low, high) = (id.min(other), id.max(other));
+            if self.proxy(other).is_some_and(|other| other.fat.overlaps(&proxy.fat)) && filter(low, high) {
+                candidates.push(u64::from(low) << 32 | u64::from(high));
+            }
+        };
         match &proxy.fat {
             Volume::Box(bounds) => {
                 // Of two marked boxes, the one with the smaller id reports the pair.
                 self.tree.query(bounds, stack, |other| {
-                    let reports = other > id || (other < id && self.marks[other as usize] == Mark::Clean);
-                    if reports && self.proxy(other).is_some_and(|other| other.fat.overlaps(&proxy.fat)) {
-                        add(other);
+                    if other > id || (other < id && self.marks[other as usize] == Mark::Clean) {
+                        look(other);
                     }
                 });
-                for &other in &self.half_spaces {
-                    if self.proxies[other as usize].is_some_and(|other| other.fat.overlaps(&proxy.fat)) {
-                        add(other);
-                    }
-                }
+                self.half_spaces.iter().for_each(|other| look(*other));
             }
             Volume::HalfSpace { .. } => {
-                for (other, other_proxy) in self.proxies.iter().enumerate() {
-                    let clean = self.marks[other] == Mark::Clean;
-                    if clean && other_proxy.is_some_and(|other| other.fat.overlaps(&proxy.fat)) {
-                        add(other as u32);
-                    }
-                }
+                (0..self.proxies.len())
+                    .filter(|other| self.marks[*other] == Mark::Clean)
+                    .for_each(|other| look(other as u32));
             }
         }
     }
 
-    /// Merges those sorted candidates into the sorted pairs that are not there yet and that the filter wants.
-    fn add_new_pairs(&mut self, filter: &impl Fn(u32, u32) -> bool, added: &mut Vec<(u32, u32)>) {
-        let mut known = self.pairs.iter().peekable();
-        for pair in self.candidates.iter().map(|pair| ((pair >> 32) as u32, *pair as u32)) {
-            while known.next_if(|&&other| other < pair).is_some() {}
-            if known.peek() != Some(&&pair) && filter(pair.0, pair.1) {
-                added.push(pair);
+    /// Makes the pairs those of before with no proxy marked, and the candidates.
+    fn merge_candidates(&mut self, changes: &mut PairChanges) {
+        let Self { pairs, pairs_before, candidates, marks, .. } = self;
+        std::mem::swap(pairs, pairs_before);
+        pairs.clear();
+        let mut candidates = candidates.iter().map(|pair| ((pair >> 32) as u32, *pair as u32)).peekable();
+        for &pair in &*pairs_before {
+            while let Some(new) = candidates.next_if(|candidate| *candidate < pair) {
+                changes.added.push(new);
+                pairs.push(new);
+            }
+            let found = candidates.next_if(|candidate| *candidate == pair).is_some();
+            match (marks[pair.0 as usize], marks[pair.1 as usize]) {
+                (Mark::Clean, Mark::Clean) => pairs.push(pair),
+                (Mark::Replaced, _) | (_, Mark::Replaced) => {
+                    changes.removed.push(pair);
+                    if found {
+                        changes.added.push(pair);
+                        pairs.push(pair);
+                    }
+                }
+                _ if found => pairs.push(pair),
+                _ => changes.removed.push(pair),
             }
         }
-        // Merge from the back, so that nothing is overwritten before it is moved.
-        let mut old = self.pairs.len();
-        self.pairs.extend_from_slice(added);
-        let mut place = self.pairs.len();
-        for &pair in added.iter().rev() {
-            while old > 0 && self.pairs[old - 1] > pair {
-                old -= 1;
-                place -= 1;
-                self.pairs[place] = self.pairs[old];
-            }
-            place -= 1;
-            self.pairs[place] = pair;
-        }
+        changes.added.extend(candidates.clone());
+        pairs.extend(candidates);
     }
 
     fn proxy(&self, id: u32) -> Option<&Proxy<V>> {

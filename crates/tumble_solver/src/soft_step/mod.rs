@@ -89,7 +89,7 @@ const SLOW_SLIP: f64 = 1.0;
 /// So few packs are sooner done lane by lane: most of their lanes have no pair [1].
 const FEW_PACKS: usize = 1;
 /// Fewer packs of a colour than this for each thread, on average, are not worth the barrier behind it [1].
-const PACKS_FOR_A_THREAD: usize = 32;
+const PACKS_FOR_A_THREAD: usize = 8;
 
 /// The model with its scratch space.
 pub struct SoftStep<D: SoftDim> {
