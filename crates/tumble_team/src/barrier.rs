@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// So many looks before a waiting thread lets others run.
-const PATIENCE: u32 = 4096;
+pub(crate) const PATIENCE: u32 = 4096;
 
 /// A point that all members of a team reach before any goes on: what they wrote before, all can read after.
 ///

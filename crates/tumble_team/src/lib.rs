@@ -9,9 +9,11 @@
 
 mod barrier;
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use barrier::PATIENCE;
+use rayon::{ThreadPool, ThreadPoolBuilder, Yield};
 
 pub use barrier::Barrier;
 
@@ -55,33 +57,51 @@ impl Team {
         self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
     }
 
-    /// Runs `work` on one of the threads: always the same one, whose caches know the work of the step before.
+    /// Runs `work` on one of the threads: always the same one, whose caches know the work of the step before. The others stay awake until it is done.
     ///
     /// # Panics
     ///
     /// When the work does.
     pub fn enter<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         let Some(pool) = &self.pool else { return work() };
-        let work = Mutex::new(Some(work));
+        let (work, done) = (Mutex::new(Some(work)), AtomicBool::new(false));
         let results = pool.broadcast(|thread| {
-            let first = thread.index() == 0;
-            let work = if first { work.lock().unwrap_or_else(PoisonError::into_inner).take() } else { None };
+            if thread.index() > 0 {
+                help_until(&done);
+                return None;
+            }
+            let _done = SetOnDrop(&done);
+            let work = work.lock().unwrap_or_else(PoisonError::into_inner).take();
             work.map(|work| work())
         });
         results.into_iter().flatten().next().expect("the first thread has worked")
     }
 
     /// Does every task on whichever thread is free. No task may depend on another.
+    ///
+    /// Half of the threads begin with the first tasks and half with the last, so that from step to step most tasks meet the
+    /// caches that know them.
     pub fn share<T: Send>(&self, tasks: impl Iterator<Item = T>, work: impl Fn(T) + Sync) {
         let Some(pool) = &self.pool else {
             tasks.for_each(work);
             return;
         };
-        let work = &work;
-        pool.in_place_scope(|scope| {
-            for task in tasks {
-                scope.spawn(move |_| work(task));
+        let tasks = Mutex::new(tasks.collect::<Vec<T>>().into_iter());
+        let next = |from_end: bool| {
+            let mut tasks = tasks.lock().unwrap_or_else(PoisonError::into_inner);
+            if from_end { tasks.next_back() } else { tasks.next() }
+        };
+        let do_tasks = |thread: usize| {
+            while let Some(task) = next(thread % 2 == 1) {
+                work(task);
             }
+        };
+        let do_tasks = &do_tasks;
+        pool.in_place_scope(|scope| {
+            for thread in 1..pool.current_num_threads() {
+                scope.spawn(move |_| do_tasks(thread));
+            }
+            do_tasks(0);
         });
     }
 
@@ -111,5 +131,29 @@ impl Team {
                 guarded(first);
             }),
         }
+    }
+}
+
+/// Does what there is to do until a flag is set. Looks often: between two pieces of shared work lie some microseconds.
+fn help_until(done: &AtomicBool) {
+    let mut looks = 0;
+    while !done.load(Ordering::Acquire) {
+        if rayon::yield_now() == Some(Yield::Executed) {
+            looks = 0;
+        } else if looks < PATIENCE {
+            looks += 1;
+            std::hint::spin_loop();
+        } else {
+            std::thread::yield_now();
+        }
+    }
+}
+
+/// Sets a flag however its holder ends.
+struct SetOnDrop<'a>(&'a AtomicBool);
+
+impl Drop for SetOnDrop<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
     }
 }

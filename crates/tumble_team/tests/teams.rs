@@ -49,6 +49,19 @@ fn a_member_that_panics_takes_the_others_along() {
 }
 
 #[test]
+#[should_panic(expected = "the work panicked")]
+fn work_that_panics_lets_the_others_go() {
+    Team::new(3).unwrap().enter(|| panic!("the work panicked"));
+}
+
+#[test]
+fn work_is_always_entered_by_the_same_thread() {
+    let team = Team::new(3).unwrap();
+    let first = team.enter(|| std::thread::current().id());
+    assert!((0..20).all(|_| team.enter(|| std::thread::current().id()) == first));
+}
+
+#[test]
 #[should_panic(expected = "3 shares for 2 threads")]
 fn more_shares_than_threads_would_never_meet() {
     Team::new(2).unwrap().together(0..3, |_, barrier| barrier.wait());
