@@ -21,6 +21,8 @@ mod oriented_spatial;
 mod tree;
 mod volume;
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use tumble_math::Vector;
 use tumble_team::Team;
 
@@ -64,6 +66,21 @@ struct Search {
     candidates: Vec<u64>,
     stack: Vec<u32>,
 }
+
+/// More pairs begin at once than could be kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("more than {most} pairs begin at once, {of_proxy} of them with proxy {proxy}")]
+pub struct Crowded {
+    /// One of the proxies with the most pairs.
+    pub proxy: u32,
+    /// How many it has.
+    pub of_proxy: usize,
+    /// The limit.
+    pub most: usize,
+}
+
+/// Proxies that are looked at to find one in the thick of a crowd.
+const WITNESSES: usize = 64;
 
 /// Changed proxies that a thread looks after at a time.
 const PROXIES_OF_A_TASK: usize = 128;
@@ -173,22 +190,35 @@ impl<V: Vector> BroadPhase<V> {
     /// `filter(smaller id, larger id)` says whether a pair is wanted; it is asked when the pair may begin, and again only when one
     /// of the two moved out of its fat volume, was replaced, or was [touched](Self::touch).
     pub fn update_pairs(&mut self, filter: impl Fn(u32, u32) -> bool + Sync, changes: &mut PairChanges) {
-        self.share_pairs(&Team::alone(), filter, changes);
+        self.share_pairs(&Team::alone(), filter, usize::MAX, changes).expect("there is no limit");
     }
 
     /// The same, with the search shared by a team.
-    pub fn share_pairs(&mut self, team: &Team, filter: impl Fn(u32, u32) -> bool + Sync, changes: &mut PairChanges) {
+    ///
+    /// # Errors
+    ///
+    /// When more than `most` pairs begin or are looked at again; then the set of pairs stays as it was.
+    pub fn share_pairs(
+        &mut self,
+        team: &Team,
+        filter: impl Fn(u32, u32) -> bool + Sync,
+        most: usize,
+        changes: &mut PairChanges,
+    ) -> Result<(), Crowded> {
         changes.added.clear();
         changes.removed.clear();
         if self.marked.is_empty() {
-            return;
+            return Ok(());
         }
         self.tree.sort::<V>();
-        self.find_candidates(team, &filter);
+        if !self.find_candidates(team, &filter, most) {
+            return Err(self.find_crowd(&filter, most));
+        }
         self.merge_candidates(changes);
         for id in self.marked.drain(..) {
             self.marks[id as usize] = Mark::Clean;
         }
+        Ok(())
     }
 
     /// All pairs, sorted: (smaller id, larger id).
@@ -208,23 +238,49 @@ impl<V: Vector> BroadPhase<V> {
         every.filter(|&(low, high)| self.fat_volumes_overlap(low, high) && filter(low, high)).collect()
     }
 
-    /// Collects every wanted pair of which at least one is marked, each once and in order.
-    fn find_candidates(&mut self, team: &Team, filter: &(impl Fn(u32, u32) -> bool + Sync)) {
+    /// Collects every wanted pair of which at least one is marked, each once and in order. Returns whether there are no more than `most`.
+    fn find_candidates(&mut self, team: &Team, filter: &(impl Fn(u32, u32) -> bool + Sync), most: usize) -> bool {
         let tasks = self.marked.len().div_ceil(PROXIES_OF_A_TASK);
         let mut searches = std::mem::take(&mut self.searches);
         searches.resize_with(tasks.max(searches.len()), Search::default);
-        let known = &*self;
+        let (known, found) = (&*self, AtomicUsize::new(0));
         team.share(known.marked.chunks(PROXIES_OF_A_TASK).zip(&mut searches), |(marked, search)| {
-            marked.iter().for_each(|id| known.search(*id, filter, search));
+            for id in marked {
+                let before = search.candidates.len();
+                known.search(*id, filter, search);
+                let new = search.candidates.len() - before;
+                if found.fetch_add(new, Ordering::Relaxed).saturating_add(new) > most {
+                    break;
+                }
+            }
             search.candidates.sort_unstable();
         });
         self.candidates.clear();
+        if found.into_inner() > most {
+            // What they hold is given back.
+            return false;
+        }
         for search in &mut searches[..tasks] {
             self.candidates.append(&mut search.candidates);
         }
         // Runs in order, which a stable sort only merges.
         self.candidates.sort();
         self.searches = searches;
+        true
+    }
+
+    /// Of some marked proxies, the one that begins the most pairs.
+    fn find_crowd(&self, filter: &impl Fn(u32, u32) -> bool, most: usize) -> Crowded {
+        let mut search = Search::default();
+        let mut crowd = Crowded { proxy: self.marked[0], of_proxy: 0, most };
+        for &proxy in self.marked.iter().step_by(self.marked.len().div_ceil(WITNESSES)) {
+            search.candidates.clear();
+            self.search(proxy, filter, &mut search);
+            if search.candidates.len() > crowd.of_proxy {
+                (crowd.proxy, crowd.of_proxy) = (proxy, search.candidates.len());
+            }
+        }
+        crowd
     }
 
     /// Collects the wanted pairs of a marked proxy.

@@ -29,7 +29,7 @@ pub mod manifold;
 pub mod narrow;
 
 pub use arrival::{Gap, Search, first_arrival, parabola_arrival};
-pub use broad::{BroadPhase, OrientedBox, PairChanges, SpatialOrientedBox, TurningBox, Volume};
+pub use broad::{BroadPhase, Crowded, OrientedBox, PairChanges, SpatialOrientedBox, TurningBox, Volume};
 pub use manifold::{ContactKind, ContactPoint, CornerOf, FeatureId, Manifold, PlanarManifold, SpatialManifold};
 pub use narrow::planar::collide;
 pub use narrow::spatial::collide as collide_spatial;

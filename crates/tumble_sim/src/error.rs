@@ -90,6 +90,18 @@ pub enum StepError {
         /// The step, counted from 1.
         step: u64,
     },
+    /// So many bodies are in one place that their pairs do not fit into any memory.
+    #[error(
+        "body \"{body}\" is in a crowd of more than {most} pairs that may touch in step {step}: are all bodies in one place?"
+    )]
+    Crowded {
+        /// Name of a body in the thick of it.
+        body: String,
+        /// Most pairs that are looked at.
+        most: usize,
+        /// The step, counted from 1.
+        step: u64,
+    },
     /// A body cannot be simulated.
     #[error(transparent)]
     Body(#[from] BodyError),

@@ -26,7 +26,16 @@ impl Quantity {
     }
 }
 
-/// The first quantity of this step that was not finite; of several bodies in the same phase, the one with the smallest id.
+/// What went wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// A quantity is not finite.
+    NotFinite(Quantity),
+    /// So many bodies are in one place that their pairs do not fit into any memory.
+    Crowded,
+}
+
+/// The first thing that went wrong in this step; of several bodies in the same phase, the one with the smallest id.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fault(Option<FaultAt>);
 
@@ -35,8 +44,8 @@ pub struct Fault(Option<FaultAt>);
 pub struct FaultAt {
     /// Rank of the body.
     pub body: u32,
-    /// What is not finite.
-    pub quantity: Quantity,
+    /// What went wrong.
+    pub cause: Cause,
     /// The phase that produced it.
     pub phase: StepSystems,
 }
@@ -46,12 +55,13 @@ impl Fault {
     #[inline]
     pub fn check(&mut self, is_finite: bool, body: u32, quantity: Quantity, phase: StepSystems) {
         if !is_finite {
-            self.note(FaultAt { body, quantity, phase });
+            self.note(FaultAt { body, cause: Cause::NotFinite(quantity), phase });
         }
     }
 
+    /// Notes a fault.
     #[cold]
-    fn note(&mut self, fault: FaultAt) {
+    pub(crate) fn note(&mut self, fault: FaultAt) {
         let first = self.0.is_none_or(|known| known.phase == fault.phase && fault.body < known.body);
         if first {
             self.0 = Some(fault);

@@ -17,11 +17,11 @@ use crate::body::{
 };
 use crate::contact::{
     Colliders, ContactManifold, ContactMemory, ContactPair, ContactProblem, ContactReport, Detection, IgnoredPairs,
-    ImpactTimes, Materials, PairKey, Pass, PointMemory, PositionCorrections, PreviousEnds, RestingModel, SoftModel,
-    Touch, VelocityModel, prepare_colliders, renumber_pairs,
+    ImpactTimes, MOST_CONTACTS, Materials, PairKey, Pass, PointMemory, PositionCorrections, PreviousEnds, RestingModel,
+    SoftModel, Touch, VelocityModel, prepare_colliders, renumber_pairs,
 };
 use crate::error::{StepError, UnknownBody};
-use crate::fault::Fault;
+use crate::fault::{Cause, Fault};
 use crate::geometry::Geometry;
 use crate::joint::{JointProblem, JointTable, prepare_joints};
 use crate::ledger::{Books, Ledger};
@@ -371,11 +371,13 @@ impl<D: Geometry> Simulation<D> {
 
     fn check_fault(&self) -> Result<(), StepError> {
         let Some(fault) = self.world.resource::<Fault>().get() else { return Ok(()) };
-        Err(StepError::NotFinite {
-            body: self.world.resource::<BodyTable>().entry(fault.body).name.clone(),
-            quantity: fault.quantity.as_str(),
-            phase: fault.phase,
-            step: self.clock().step + 1,
+        let body = self.world.resource::<BodyTable>().entry(fault.body).name.clone();
+        let step = self.clock().step + 1;
+        Err(match fault.cause {
+            Cause::NotFinite(quantity) => {
+                StepError::NotFinite { body, quantity: quantity.as_str(), phase: fault.phase, step }
+            }
+            Cause::Crowded => StepError::Crowded { body, most: MOST_CONTACTS, step },
         })
     }
 }

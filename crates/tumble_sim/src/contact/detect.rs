@@ -11,13 +11,19 @@ use super::{Colliders, IgnoredPairs, Touch};
 use crate::body::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyIndex, BodyTable, LinearVelocity, Orientation, Position,
 };
-use crate::fault::Fault;
+use crate::fault::{Cause, Fault, FaultAt};
 use crate::geometry::Geometry;
 use crate::joint::JointTable;
 use crate::notice::Notices;
 use crate::rest::Awake;
+use crate::schedule::StepSystems;
 use crate::threads::Threads;
 use crate::{Clock, Settings};
+
+/// Most pairs that may begin to be near in a step: some gigabytes.
+const MOST_NEAR_PAIRS: usize = 1 << 26;
+/// Most pairs that may have contacts: about ten gigabytes. A million bodies in a heap have some four million.
+pub const MOST_CONTACTS: usize = 1 << 23;
 
 /// Pose and motion of a body as of the last detection.
 #[derive(Clone, Copy, Debug)]
@@ -160,7 +166,7 @@ pub fn find_pairs<D: Geometry>(
     colliders: Res<Colliders<D>>,
     ignored: Res<IgnoredPairs>,
     joints: Res<JointTable<D>>,
-    fault: Res<Fault>,
+    mut fault: ResMut<Fault>,
     mut notices: ResMut<Notices>,
     bodies: MotionQuery<D>,
     mut detection: ResMut<Detection<D>>,
@@ -189,7 +195,18 @@ pub fn find_pairs<D: Geometry>(
     let filter = |a: u32, b: u32| {
         !bounds.lie_askew(a, b) && may_touch(&list[a as usize], &list[b as usize], &table, &ignored, &joints)
     };
-    broad.share_pairs(threads.team(), filter, changes);
+    let crowded = |part: u32| FaultAt {
+        body: list[part as usize].body,
+        cause: Cause::Crowded,
+        phase: StepSystems::DetectCollisions,
+    };
+    if let Err(crowd) = broad.share_pairs(threads.team(), filter, MOST_NEAR_PAIRS, changes) {
+        fault.note(crowded(crowd.proxy));
+        return;
+    }
     near.follow(changes, *ranks == Ranks::Renewed);
     near.meet(threads.team(), |parts| bounds.are_apart(parts));
+    if let Some(part) = near.crowd(MOST_CONTACTS) {
+        fault.note(crowded(part));
+    }
 }

@@ -26,7 +26,7 @@ mod touch;
 mod velocity;
 
 pub use colliders::{Collider, Colliders, IgnoredPairs};
-pub use detect::{BodyMotion, Detection, find_pairs};
+pub use detect::{BodyMotion, Detection, MOST_CONTACTS, find_pairs};
 pub use impact_time::{ImpactTimes, MOST_PARTS, look_for_impacts};
 pub use materials::Materials;
 pub use pair::{ContactManifold, ContactMemory, ContactPair, PairKey, PointMemory};

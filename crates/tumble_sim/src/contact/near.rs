@@ -42,6 +42,21 @@ impl NearPairs {
         self.pairs.len()
     }
 
+    /// A part in the thick of it, where more than `most` pairs would have contacts; then none begins.
+    pub(super) fn crowd(&mut self, most: usize) -> Option<u32> {
+        if self.pairs.len() <= most
+            || self.began.len() + self.pairs.iter().filter(|pair| pair.contact.is_some()).count() <= most
+        {
+            return None;
+        }
+        // Pairs lie in the order of their first parts: the longest run is the one with the most partners.
+        let first_part = |place: &u32| self.pairs[*place as usize].parts.0;
+        let runs = self.began.chunk_by(|one, other| first_part(one) == first_part(other));
+        let crowd = runs.max_by_key(|run| run.len()).and_then(|run| run.first()).map(first_part);
+        self.began.clear();
+        crowd
+    }
+
     /// Follows the broad phase: changes of the pairs, or, `renewed`, all pairs there are.
     pub(super) fn follow(&mut self, changes: &PairChanges, renewed: bool) {
         if !renewed && changes.added.is_empty() && changes.removed.is_empty() {

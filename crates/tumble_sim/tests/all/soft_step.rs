@@ -10,7 +10,7 @@ use tumble_math::{Spatial, SpatialRotation};
 use tumble_shape::{Capsule, Cuboid, HalfSpace, SpatialShape, Sphere};
 use tumble_sim::{
     Amount, Anchor, BodyKind, ContactModel, Joint, JointKind, Orientation, Part, Position, Settings, Simulation,
-    SoftModel,
+    SoftModel, StepError,
 };
 use tumble_solver::Surface;
 use tumble_solver::soft_step::{SoftSettings, Width};
@@ -188,6 +188,19 @@ fn too_much_is_survived() {
     for name in names(&crowd) {
         assert!(glam::DVec2::is_finite(body(&crowd, &name).position()));
     }
+}
+
+#[test]
+fn a_crowd_that_fits_into_no_memory_is_refused() {
+    // A hundred thousand bodies in one place are five thousand million pairs.
+    let mut crowd = simulation(soft(0.01), rough(0.5, 0.5));
+    for k in 0..100_000 {
+        ball(0.5, 1.0).at(1e-6 * f64::from(k % 7), 0.0).spawn(&mut crowd, &format!("ball-{k:05}"));
+    }
+    let mistake = crowd.step().unwrap_err();
+    assert!(matches!(&mistake, StepError::Crowded { body, .. } if body.starts_with("ball-")), "{mistake}");
+    // The bodies are where they were, and may be taken away.
+    assert_eq!(body(&crowd, "ball-00003").position(), dvec2(3e-6, 0.0));
 }
 
 /// A floor and a heap of spheres, boxes and capsules in space.
