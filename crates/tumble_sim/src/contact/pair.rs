@@ -23,7 +23,7 @@ pub struct PairKey {
     pub part_b: u32,
 }
 
-/// Two parts that are near each other: one entity while their grown bounds overlap.
+/// Two parts that are near each other: one entity from the first step in which they might touch until their fat bounds part.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct ContactPair {
     /// Which parts.
