@@ -96,6 +96,7 @@ scenes! {
     incline_3d,
     opening_pile,
     pulled_board,
+    rattleback,
     rolling_ball,
     slip_to_roll,
     spheres_666,

@@ -75,6 +75,7 @@ pub const SHIPPED: &[Shipped] = shipped![
     "incline_3d",
     "opening_pile",
     "pulled_board",
+    "rattleback",
     "rolling_ball",
     "slip_to_roll",
     "spheres_666",

@@ -34,7 +34,7 @@ mod tests;
 use std::collections::BTreeMap;
 
 use tumble_math::{Linear, Vector};
-use tumble_record::{BodyState, Recording};
+use tumble_record::{BodyState, Recording, TurnAxis};
 
 use crate::dim::{AngularClaim, SceneDim};
 use crate::format::{ContactModel, Expectation, ScalarExpectation, Scene};
@@ -89,6 +89,9 @@ fn expected<D: SceneDim>(expectation: &Expectation<D>) -> Option<Expected> {
         | Expectation::VelocityY(e)
         | Expectation::VelocityZ(e)
         | Expectation::Speed(e)
+        | Expectation::AngularVelocityX(e)
+        | Expectation::AngularVelocityY(e)
+        | Expectation::AngularVelocityZ(e)
         | Expectation::TurnRate(e) => e.into(),
         Expectation::AngularVelocity(e) => match D::angular_claim(e) {
             AngularClaim::Scalar(e) => e.into(),
@@ -114,6 +117,11 @@ fn expected<D: SceneDim>(expectation: &Expectation<D>) -> Option<Expected> {
 /// A component of a vector, which is not a number where the dimension has none.
 fn component<V: Vector>(vector: V, axis: usize) -> f64 {
     if axis < V::AXES { vector[axis] } else { f64::NAN }
+}
+
+/// Rate of turn about a world axis, which is not a number in the plane [rad/s].
+fn turn_about<D: SceneDim>(state: &BodyState<D>, axis: TurnAxis) -> f64 {
+    D::about(state.angular_velocity, axis).unwrap_or(f64::NAN)
 }
 
 /// A scene and what was recorded of it.
@@ -182,6 +190,9 @@ impl<'r, D: SceneDim> Run<'r, D> {
             Expectation::VelocityY(e) => number(e, |state| state.velocity[1]),
             Expectation::VelocityZ(e) => number(e, |state| component(state.velocity, 2)),
             Expectation::Speed(e) => number(e, |state| state.velocity.length()),
+            Expectation::AngularVelocityX(e) => number(e, |state| turn_about(state, TurnAxis::X)),
+            Expectation::AngularVelocityY(e) => number(e, |state| turn_about(state, TurnAxis::Y)),
+            Expectation::AngularVelocityZ(e) => number(e, |state| turn_about(state, TurnAxis::Z)),
             Expectation::TurnRate(e) => number(e, |state| state.angular_velocity.length()),
             Expectation::AngularVelocity(e) => {
                 let (of, claimed) = match D::angular_claim(e) {

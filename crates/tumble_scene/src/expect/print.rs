@@ -31,6 +31,9 @@ pub(super) fn title<D: Dialect>(expectation: &Expectation<D>) -> String {
         | Expectation::Speed(_)
         | Expectation::TurnRate(_)
         | Expectation::AngularVelocity(_)
+        | Expectation::AngularVelocityX(_)
+        | Expectation::AngularVelocityY(_)
+        | Expectation::AngularVelocityZ(_)
         | Expectation::Angle(_)
         | Expectation::Orientation(_)
         | Expectation::Tilt(_) => {
@@ -74,7 +77,11 @@ pub(super) fn unit<D: Dialect>(expectation: &Expectation<D>) -> &'static str {
         | Expectation::VelocityY(_)
         | Expectation::VelocityZ(_)
         | Expectation::Speed(_) => "m/s",
-        Expectation::AngularVelocity(_) | Expectation::TurnRate(_) => "rad/s",
+        Expectation::AngularVelocity(_)
+        | Expectation::AngularVelocityX(_)
+        | Expectation::AngularVelocityY(_)
+        | Expectation::AngularVelocityZ(_)
+        | Expectation::TurnRate(_) => "rad/s",
         Expectation::EnergyNeverRises(_) | Expectation::EnergyKept(_) => "J",
         Expectation::MomentumKept(_) => "kg·m/s",
         Expectation::AngularMomentumKept(_) => "kg·m²/s",

@@ -50,6 +50,9 @@ impl<D: SceneDim> Checker<'_, D> {
             | Expectation::VelocityY(e)
             | Expectation::VelocityZ(e)
             | Expectation::Speed(e)
+            | Expectation::AngularVelocityX(e)
+            | Expectation::AngularVelocityY(e)
+            | Expectation::AngularVelocityZ(e)
             | Expectation::TurnRate(e) => self.scalar(e, found),
             Expectation::AngularVelocity(e) => match D::angular_claim(e) {
                 AngularClaim::Scalar(e) => self.scalar(e, found),

@@ -110,7 +110,7 @@ fn everything_that_space_has_comes_back_bit_for_bit() -> Result<(), Box<dyn std:
             (name: "rope", kind: Distance(length: 3.4), a: Body(name: "stone"), b: Body(name: "pill"), allow_gap: true),
         ],
         forces: [(on: "hammer", force: (1, 0, 0), torque: (0, 0.1, 0), axes: Body, until: 0.5)],
-        expect: [TurnRate(of: "hammer", always: true, below: 100), Orientation(of: "top", always: true, within_degrees: 1)],
+        expect: [TurnRate(of: "hammer", always: true, below: 100), AngularVelocityZ(of: "hammer", at: 0, is: 3, within: 1e-9), Orientation(of: "top", always: true, within_degrees: 1)],
     )"#;
     let loaded = Loaded::<Spatial>::parse(text, "all.ron")?;
     Ok(same_bits_after_a_round_trip(Simulation::from_loaded(&loaded)?)?)

@@ -92,6 +92,12 @@ pub enum Expectation<D: Dialect = Planar> {
     Speed(ScalarExpectation),
     /// Rate of turn of a body: a number in the plane, a vector along world axes in space [rad/s].
     AngularVelocity(D::AngularExpectation),
+    /// Rate of turn of a body about x, world axes, in space [rad/s].
+    AngularVelocityX(ScalarExpectation),
+    /// Rate of turn of a body about y, world axes, in space [rad/s].
+    AngularVelocityY(ScalarExpectation),
+    /// Rate of turn of a body about z, world axes, in space [rad/s].
+    AngularVelocityZ(ScalarExpectation),
     /// Magnitude of the rate of turn of a body, in space [rad/s].
     TurnRate(ScalarExpectation),
     /// A body that has come to rest.
@@ -161,6 +167,9 @@ macro_rules! each_claim {
             | Self::VelocityY($e)
             | Self::VelocityZ($e)
             | Self::Speed($e)
+            | Self::AngularVelocityX($e)
+            | Self::AngularVelocityY($e)
+            | Self::AngularVelocityZ($e)
             | Self::TurnRate($e) => $do,
             Self::Angle($e) => $do,
             Self::AngularVelocity($e) => $do,
@@ -198,6 +207,9 @@ impl<D: Dialect> Expectation<D> {
             Self::VelocityZ(_) => "VelocityZ",
             Self::Speed(_) => "Speed",
             Self::AngularVelocity(_) => "AngularVelocity",
+            Self::AngularVelocityX(_) => "AngularVelocityX",
+            Self::AngularVelocityY(_) => "AngularVelocityY",
+            Self::AngularVelocityZ(_) => "AngularVelocityZ",
             Self::TurnRate(_) => "TurnRate",
             Self::AtRest(_) => "AtRest",
             Self::EnergyNeverRises(_) => "EnergyNeverRises",
