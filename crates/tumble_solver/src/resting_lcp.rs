@@ -26,7 +26,9 @@
 //!
 //! **Indeterminate.** Where statics leaves the shares open but not the accelerations, the forces of least norm are taken.
 //!
-//! In space friction at rest is bounded along each of the two tangents of the frame.
+//! **Discs.** In space friction at rest is bounded by a disc, which no linear problem has: an island with resting points is solved by Newton's method on
+//! the discs (Alart and Curnier 1991), with the friction of sliding points in their columns. Where that fails within its steps, and in an island of which
+//! more than one outcome was found, each of the two tangents of the frame has a bound of its own.
 //!
 //! Good at: contact forces as such, exact rest, exact sliding. Bad at: impacts (it has none), Painlevé's configurations, large piles.
 //! Choose it to see forces, and for few contacts.

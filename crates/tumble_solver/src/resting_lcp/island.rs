@@ -1,5 +1,6 @@
 //! One island of resting points: its complementarity problem, and whether it has none, one or several solutions.
 
+use tumble_lcp::cone::{ConeNewton, ContactSpace, FrictionProblem};
 use tumble_lcp::{Bound, Lcp, Lemke, Matrix as Dense, PrincipalPivoting, enumerate};
 use tumble_math::{Dim, Linear, Vector};
 
@@ -40,6 +41,12 @@ pub(super) struct Solved<V> {
     pub residual: f64,
 }
 
+/// Steps of Newton's method on the discs of an island, and sweeps between them, before it is given up: two to ten are enough where it succeeds [1].
+const MOST_DISC_STEPS: usize = 15;
+
+/// Part of μ_s f_n that counts as all of it, for a point that accelerates [1].
+const USED_UP: f64 = 1.0 - 1e-9;
+
 /// A guess counts as the answer only when it is as exact as an answer, which is far better than the tolerance asks [1].
 const KNOWN_WITHIN: f64 = 1e-3;
 
@@ -56,7 +63,7 @@ pub(super) fn solve<D: Dim>(
         let mut breaks = false;
         for (k, point) in points.iter_mut().enumerate() {
             let (force, pull) = (first.forces[k], tangential(first.accelerations[k]));
-            let used_up = tangential(force).length() >= point.surface.static_friction * force[0] * (1.0 - 1e-12);
+            let used_up = tangential(force).length() >= point.surface.static_friction * force[0] * USED_UP;
             if point.friction == Friction::Resting && force[0] > 0.0 && used_up && pull.length() > 10.0 * tolerance {
                 point.friction = Friction::Sliding(pull * (-point.surface.kinetic_friction / pull.length()));
                 breaks = true;
@@ -127,7 +134,8 @@ impl<'a, D: Dim> Stage<'a, D> {
     fn solve(&self, guess: &[D::Vector], tolerance: f64) -> Outcome<D::Vector> {
         let size = self.points.iter().map(|point| point.free.length()).fold(0.0, f64::max);
         let bar = tolerance * size.max(1.0);
-        let may_have_several = !self.is_frictionless() && !self.has_positive_minors();
+        let may_have_several = self.may_have_several();
+        let given = guess;
         let guess: Vec<f64> = self.unknowns.iter().map(|unknown| guess[unknown.point][unknown.component]).collect();
         let known = self.outcome(RestingStatus::Solved, self.forces(&guess), 0);
         if !may_have_several && known.residual <= KNOWN_WITHIN * bar {
@@ -148,17 +156,24 @@ impl<'a, D: Dim> Stage<'a, D> {
             if all.iter().any(|solution| other(&solution.w)) {
                 status = RestingStatus::NotUnique;
             }
-            found = Some((all[0].z.clone(), all.len()));
+            found = Some((self.forces(&first.z), all.len()));
+        }
+        if self.has_discs() && status != RestingStatus::NotUnique {
+            let begin = found.as_ref().map_or(given, |(forces, _)| forces);
+            let on_discs = self.on_discs(begin).map(|(forces, steps)| self.outcome(status, forces, steps));
+            // What Newton's method does not solve is bounded along two tangents, and its residual says so.
+            if let Some(outcome) = on_discs.filter(|outcome| outcome.residual <= bar) {
+                found = Some((outcome.forces, outcome.iterations));
+            }
         }
         if found.is_none() {
             let max_pivots = Some(pivots_before_giving_up(lcp.dimension()));
             let pivoted = PrincipalPivoting { max_pivots, ..PrincipalPivoting::default() }
                 .solve_from(&lcp, &guess)
                 .or_else(|_| Lemke { max_pivots, ..Lemke::default() }.solve(&lcp));
-            found = pivoted.ok().map(|solution| (solution.z, solution.report.iterations));
+            found = pivoted.ok().map(|solution| (self.forces(&solution.z), solution.report.iterations));
         }
-        let Some((z, iterations)) = found else { return self.nothing() };
-        let forces = self.forces(&z);
+        let Some((forces, iterations)) = found else { return self.nothing() };
         let outcome = self.outcome(status, forces, iterations);
         if status == RestingStatus::NotUnique {
             return outcome;
@@ -169,6 +184,64 @@ impl<'a, D: Dim> Stage<'a, D> {
         make_smallest::<D>(&mut smallest, &mut freedoms, &friction, self.a);
         let smallest = self.outcome(status, smallest, iterations);
         if smallest.residual <= bar.max(outcome.residual) { smallest } else { outcome }
+    }
+
+    /// Whether there may be no solution, or several.
+    fn may_have_several(&self) -> bool {
+        // Of points in space that all rest one solution is looked for: patterns of bounds along two tangents say nothing of discs.
+        let slides = |point: &Point<D::Vector>| matches!(point.friction, Friction::Sliding(_));
+        let may = D::Vector::AXES == 2 || self.points.iter().any(slides);
+        may && !self.is_frictionless() && !self.has_positive_minors()
+    }
+
+    /// Whether friction of some point is bounded by a disc, which no linear problem has.
+    fn has_discs(&self) -> bool {
+        D::Vector::AXES > 2 && self.points.iter().any(|point| point.friction == Friction::Resting)
+    }
+
+    /// Forces with friction at rest within its disc, by Newton's method, and its steps. The columns of a sliding point hold its friction,
+    /// and it has none besides.
+    fn on_discs(&self, guess: &[D::Vector]) -> Option<(Vec<D::Vector>, usize)> {
+        let axes = D::Vector::AXES;
+        let n = axes * self.points.len();
+        let matrix = Dense::from_fn(n, n, |row, column| {
+            let (point, component) = (column / axes, column % axes);
+            let dragged = match self.points[point].friction {
+                Friction::Sliding(direction) if component == 0 => {
+                    (1..axes).map(|k| self.a[(row, axes * point + k)] * direction[k]).sum()
+                }
+                _ => 0.0,
+            };
+            self.a[(row, column)] + dragged
+        });
+        let q = self.points.iter().flat_map(|point| (0..axes).map(|k| point.free[k])).collect();
+        let coefficient = |point: &Point<D::Vector>| match point.friction {
+            Friction::Resting => point.surface.static_friction,
+            Friction::Sliding(_) => 0.0,
+        };
+        let coefficients = self.points.iter().map(coefficient).collect();
+        let guess: Vec<f64> = self
+            .points
+            .iter()
+            .zip(guess)
+            .flat_map(|(point, force)| {
+                let rests = point.friction == Friction::Resting;
+                (0..axes).map(move |k| if k == 0 || rests { force[k] } else { 0.0 })
+            })
+            .collect();
+        let discs = FrictionProblem::new(matrix, q, coefficients, ContactSpace::Spatial).ok()?;
+        let newton = ConeNewton { max_steps: MOST_DISC_STEPS, ..ConeNewton::default() };
+        let solution = newton.solve_from(&discs, &guess).ok()?;
+        let force = |(point, r): (&Point<D::Vector>, &[f64])| {
+            let mut force = D::Vector::ZERO;
+            match point.friction {
+                Friction::Resting => (0..axes).for_each(|k| force[k] = r[k]),
+                Friction::Sliding(direction) => force = (D::Vector::unit(0) + direction) * r[0],
+            }
+            force
+        };
+        let forces = self.points.iter().zip(solution.impulses.chunks_exact(axes)).map(force).collect();
+        Some((forces, solution.report.iterations))
     }
 
     /// w = M z + q of the island.
@@ -260,16 +333,19 @@ impl<'a, D: Dim> Stage<'a, D> {
             }
         }
         let mut residual: f64 = 0.0;
-        for unknown in &self.unknowns {
-            let (force, acceleration) = (forces[unknown.point], accelerations[unknown.point][unknown.component]);
-            let own = self.a[(axes * unknown.point + unknown.component, axes * unknown.point + unknown.component)];
-            let error = if unknown.component == 0 {
-                acceleration.min(own * force[0])
-            } else {
-                let bound = self.points[unknown.point].surface.static_friction * force[0].max(0.0);
-                acceleration.min(own * (force[unknown.component] + bound)).max(own * (force[unknown.component] - bound))
-            };
-            residual = residual.max(error.abs());
+        for (k, (point, (force, acceleration))) in self.points.iter().zip(forces.iter().zip(&accelerations)).enumerate()
+        {
+            let own = |component: usize| self.a[(axes * k + component, axes * k + component)];
+            residual = residual.max(acceleration[0].min(own(0) * force[0]).abs());
+            if point.friction == Friction::Resting {
+                let own = (1..axes).map(own).sum::<f64>() / (axes - 1) as f64;
+                let bound = own * point.surface.static_friction * force[0].max(0.0);
+                let (held, pull) = (tangential(*force) * own, tangential(*acceleration));
+                // Natural map of the disc; an interval in the plane.
+                let target = held - pull;
+                let error = if target.length() <= bound { pull } else { held - target * (bound / target.length()) };
+                residual = residual.max(error.length());
+            }
         }
         // A minimum hides what is no number.
         if !accelerations.iter().all(|acceleration| acceleration.is_finite()) {

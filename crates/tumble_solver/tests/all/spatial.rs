@@ -4,7 +4,9 @@ use glam::{DMat3, DVec3, dvec3};
 use proptest::prelude::*;
 use tumble_math::{Dim, Inertia, Rotation, Spatial, SpatialRotation, SymmetricTensor};
 use tumble_solver::joint::{JointBlock, JointEnds, JointRow, revolute, spatial};
-use tumble_solver::resting_lcp::{Acceleration, Gap, NormalCarrier, RestingLcp, RestingSettings, RestingStatus};
+use tumble_solver::resting_lcp::{
+    Acceleration, Gap, NormalCarrier, RestingLcp, RestingReport, RestingSettings, RestingStatus,
+};
 use tumble_solver::velocity_lcp::{Rebound, Restitution, VelocityLcp, VelocitySettings, VelocitySolver};
 use tumble_solver::{ContactRow, Ending, Slip, SolverBody, Surface};
 
@@ -270,4 +272,44 @@ fn a_second_hinge_in_line_is_redundant_and_one_askew_is_named() {
     assert!(report.unreachable_row.is_some_and(|row| row >= 5), "{report:?}");
     assert!(report.unreachable > 0.05, "{report:?}");
     assert!(displacements.iter().all(|d| d.velocity.is_finite() && d.angular_velocity.is_finite()));
+}
+
+/// Acceleration of a body of 35 kg on four feet whose friction is 0.4 at rest and μ_k in motion, pulled sideways, and how it was found.
+fn pulled(heading: DVec3, pull: f64, kinetic_friction: f64) -> (DVec3, RestingReport) {
+    let feet = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)];
+    let mut rows = feet.map(|(x, y)| on_floor(dvec3(x, y, -0.5), 0.4, 0.0));
+    rows.iter_mut().for_each(|row| row.surface.kinetic_friction = kinetic_friction);
+    let bodies = [Body::default(), body(35.0, dvec3(500.0, 500.0, 900.0))];
+    let gaps: Vec<Gap<Spatial>> = rows.iter().map(|row| Gap::corner(row, NormalCarrier::A)).collect();
+    let linear = heading * (pull / 35.0) - DVec3::Z * 9.81;
+    let mut accelerations = [Acceleration::default(), Acceleration { linear, angular: DVec3::ZERO }];
+    let (settings, forces) = (RestingSettings::default(), &mut Vec::new());
+    let report = RestingLcp::default().solve(&bodies, &mut accelerations, &mut rows, &gaps, forces, None, &settings);
+    assert!(accelerations[1].angular.length() < 1e-9, "{}", accelerations[1].angular);
+    (accelerations[1].linear, report)
+}
+
+#[test]
+fn d9_friction_at_rest_holds_alike_in_every_direction() {
+    // Weight 343.35 N, of which 0.4 hold 137.34 N.
+    for degrees in [0.0_f64, 30.0, 45.0, 60.0, 100.0] {
+        let (sine, cosine) = tumble_math::trig::sin_cos(degrees.to_radians());
+        let heading = dvec3(cosine, sine, 0.0);
+        for (pull, kinetic_friction, left) in
+            [(137.33, 0.4, 0.0), (150.0, 0.4, 150.0 - 137.34), (150.0, 0.2, 150.0 - 68.67)]
+        {
+            let (acceleration, report) = pulled(heading, pull, kinetic_friction);
+            assert_eq!(report.status, RestingStatus::Solved);
+            // The tolerance of accelerations, of 10 m/s².
+            let off = acceleration - heading * (left / 35.0);
+            assert!(off.length() < 1e-9, "{degrees}°, {pull} N: off by {off}");
+        }
+    }
+}
+
+#[test]
+fn resting_points_in_space_take_few_iterations() {
+    // Newton's method, to begin with and again with μ_k; pivoting took one for each row.
+    let (_, report) = pulled(DVec3::X, 150.0, 0.2);
+    assert!(report.iterations <= 20, "{report:?}");
 }
