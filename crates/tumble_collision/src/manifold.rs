@@ -197,8 +197,11 @@ impl<V: Vector, const N: usize, M: Memory> Manifold<V, N, M> {
         if count == N {
             return;
         }
-        let place = self.points().iter().position(|other| point.feature < other.feature).unwrap_or(count);
-        self.points.copy_within(place..count, place + 1);
+        let mut place = count;
+        while place > 0 && point.feature < self.points[place - 1].feature {
+            self.points[place] = self.points[place - 1];
+            place -= 1;
+        }
         self.points[place] = point;
         self.count += 1;
     }
@@ -216,6 +219,12 @@ impl<V: Vector, const N: usize, M: Memory> Manifold<V, N, M> {
     #[inline]
     pub(crate) fn remembering(self, memory: M) -> Self {
         Self { memory, ..self }
+    }
+
+    /// Remembers something from now on.
+    #[inline]
+    pub(crate) fn remember(&mut self, memory: &M) {
+        self.memory = *memory;
     }
 
     /// What it remembers.

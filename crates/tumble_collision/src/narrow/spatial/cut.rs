@@ -136,7 +136,7 @@ pub(super) fn polygon(reference: &ConvexHull, face: &Face, incident: &ConvexHull
         .collect()
 }
 
-/// The same corners of a cut as before, in the present poses; `None` if one of them is no corner of the cut any more.
+/// The same corners of a cut as before, in the present poses, into an empty one; `None` if one of them is no corner of the cut any more.
 ///
 /// A corner of the cut can only appear where another one stops to be one, so that a cut whose corners all stay has no new ones.
 pub(super) fn again(
@@ -146,12 +146,12 @@ pub(super) fn again(
     facing: &Face,
     place: &Place,
     sources: &[Source],
-) -> Option<Cut> {
+    cut: &mut Cut,
+) -> Option<()> {
     let sides = reference.sides(face);
     let snap = SNAP * reference.inner_radius();
     let beyond = |side: &Side, place: DVec3| side.outward.dot(place) - side.offset;
     let vertex = |i: u32| incident.vertices().get(i as usize).map(|&vertex| place.point(vertex));
-    let mut cut = Cut::new();
     for &source in sources {
         let place = match source {
             Source::Incident(i) => {
@@ -182,7 +182,7 @@ pub(super) fn again(
         };
         cut.push(CutPoint { place, height: face.normal.dot(place) - face.offset, source });
     }
-    Some(cut)
+    Some(())
 }
 
 /// Cuts a segment, given in the frame of the reference hull, to the prism above a face; its ends are vertices 0 and 1 of edge 0.

@@ -5,9 +5,9 @@ use tumble_shape::{ConvexHull, spatial::Face};
 
 use super::Pair;
 use super::cut::{Cut, Source};
-use super::draft::{Draft, Feature, Owner, feature_id, vertex_id};
+use super::draft::{Feature, Owner, feature_id, vertex_id};
 use super::reduce;
-use crate::manifold::{ContactKind, SpatialManifold};
+use crate::manifold::{ContactKind, ContactPoint, SpatialManifold};
 
 /// Smallest height of the points of a cut; infinite without any [m].
 pub(super) fn lowest(cut: &Cut) -> f64 {
@@ -22,11 +22,19 @@ pub(super) fn choose(pair: &Pair, face: &Face, cut: &mut Cut, round: f64) {
 
 /// The manifold of chosen points above a face of one of the shapes; `round` is the radius of the other one [m].
 pub(super) fn manifold(pair: &Pair, owner: Owner, face: &Face, cut: &Cut, round: f64) -> SpatialManifold {
+    let mut manifold = SpatialManifold::EMPTY;
+    put(pair, owner, face, cut, round, &mut manifold);
+    manifold
+}
+
+/// Puts chosen points above a face into an empty manifold, where it stands: it is large enough for copies of it to count.
+#[inline]
+pub(super) fn put(pair: &Pair, owner: Owner, face: &Face, cut: &Cut, round: f64, manifold: &mut SpatialManifold) {
     let (frame, normal) = match owner {
         Owner::A => (&pair.a_in_world, face.normal),
         Owner::B => (&pair.b_in_world, -face.normal),
     };
-    let mut draft = Draft::new(frame, normal, pair.query.margin);
+    manifold.normal = frame.vector(normal);
     for point in cut {
         let (feature, kind) = match point.source {
             Source::Incident(vertex) => (vertex_id(owner.other(), vertex), ContactKind::VertexFace),
@@ -39,9 +47,11 @@ pub(super) fn manifold(pair: &Pair, owner: Owner, face: &Face, cut: &Cut, round:
         };
         let separation = point.height - round;
         let middle = point.place - face.normal * (round + 0.5 * separation);
-        draft.push(middle, separation, feature, if round > 0.0 { ContactKind::RoundFace } else { kind });
+        let kind = if round > 0.0 { ContactKind::RoundFace } else { kind };
+        if separation <= pair.query.margin {
+            manifold.insert(ContactPoint { point: frame.point(middle), separation, feature, kind });
+        }
     }
-    draft.finish()
 }
 
 /// The number of the face of a hull that faces a direction (in its own frame) most squarely.

@@ -9,7 +9,7 @@ use super::cut::{self, Cut};
 use super::draft::{Draft, Feature, Owner, feature_id};
 use super::memory::AxisMemory;
 use super::{boxes, closest, face, search, segment};
-use crate::manifold::{ContactKind, SpatialManifold};
+use crate::manifold::{ContactKind, ContactPoint, SpatialManifold};
 
 /// Contact points of two polyhedra, with the boxes they are, if both are.
 pub(super) fn collide(
@@ -56,25 +56,42 @@ pub(super) fn collide(
 fn contact(pair: &Pair, a: &ConvexHull, b: &ConvexHull, best: &Axis, memory: &AxisMemory) -> SpatialManifold {
     let tolerance = pair.preference() + pair.rounding();
     let closest = || closest::manifold(pair, a, b.vertices(), Some(b), 0.0, best.normal);
+    let mut manifold = SpatialManifold::EMPTY;
     if let AxisOf::Edges(i, j) = best.of {
         let (on_a, on_b) = crossing(pair, a, i, b, j);
         // Apart, and yet the edges pass each other beyond their ends: closest elsewhere.
         if best.separation > 0.0
             && on_a.distance(on_b) > best.separation + tolerance
-            && let Some(manifold) = closest()
+            && let Some(closest) = closest()
         {
+            manifold = closest;
             return manifold;
         }
-        let mut draft = Draft::new(&pair.a_in_world, best.normal, pair.query.margin);
-        let feature = feature_id(Feature::Edge(i as u32), Feature::Edge(j as u32));
-        draft.push((on_a + on_b) * 0.5, best.separation, feature, ContactKind::EdgeEdge);
-        return draft.finish().remembering(*memory);
+        manifold.normal = pair.a_in_world.vector(best.normal);
+        if best.separation <= pair.query.margin {
+            manifold.insert(ContactPoint {
+                point: pair.a_in_world.point((on_a + on_b) * 0.5),
+                separation: best.separation,
+                feature: feature_id(Feature::Edge(i as u32), Feature::Edge(j as u32)),
+                kind: ContactKind::EdgeEdge,
+            });
+        }
+        manifold.remember(memory);
+    } else if !on_face(pair, a, b, best, memory, &mut manifold) {
+        manifold = closest().unwrap_or_else(|| single(pair, a, b, best));
     }
-    on_face(pair, a, b, best, memory).or_else(closest).unwrap_or_else(|| single(pair, a, b, best))
+    manifold
 }
 
-/// What lies on the face of an axis; `None` if the shapes are apart and come closer elsewhere.
-fn on_face(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axis: &Axis, memory: &AxisMemory) -> Option<SpatialManifold> {
+/// Puts what lies on the face of an axis into an empty manifold; `false` if the shapes are apart and come closer elsewhere.
+fn on_face(
+    pair: &Pair,
+    a: &ConvexHull,
+    b: &ConvexHull,
+    axis: &Axis,
+    memory: &AxisMemory,
+    manifold: &mut SpatialManifold,
+) -> bool {
     let (owner, number, reference, incident) = match axis.of {
         AxisOf::FaceB(face) => (Owner::B, face, b, a),
         AxisOf::FaceA(face) | AxisOf::Edges(face, _) => (Owner::A, face, a, b),
@@ -88,29 +105,34 @@ fn on_face(pair: &Pair, a: &ConvexHull, b: &ConvexHull, axis: &Axis, memory: &Ax
     };
     let above = &reference.faces()[number];
     let deep_enough = |cut: &Cut| face::lowest(cut) <= axis.separation + pair.preference() + pair.rounding();
+    let mut cut = Cut::new();
     if let Some((facing, sources)) = memory.cut()
         && let Some(facing) = incident.faces().get(facing)
-        && let Some(cut) = cut::again(reference, above, incident, facing, place, sources)
+        && cut::again(reference, above, incident, facing, place, sources, &mut cut).is_some()
         && deep_enough(&cut)
     {
-        return Some(face::manifold(pair, owner, above, &cut, 0.0).remembering(*memory));
+        face::put(pair, owner, above, &cut, 0.0, manifold);
+        manifold.remember(memory);
+        return true;
     }
     let down = place.unturned(above.normal);
     let cut_by = |facing: usize| cut::polygon(reference, above, incident, &incident.faces()[facing], place);
     let mut facing = face::facing(incident, down);
-    let mut cut = cut_by(facing);
+    cut = cut_by(facing);
     if !deep_enough(&cut) {
         // The face that faces most squarely does not have the nearest vertex; one around that vertex has.
         facing = face::facing_at_lowest(incident, down).0;
         cut = cut_by(facing);
         if axis.separation > 0.0 && !deep_enough(&cut) || cut.is_empty() {
-            return None;
+            return false;
         }
     }
     let all = cut.len().min(4);
     face::choose(pair, above, &mut cut, 0.0);
     let memory = if cut.len() == all { memory.with_cut(facing, &cut) } else { memory.without_cut() };
-    Some(face::manifold(pair, owner, above, &cut, 0.0).remembering(memory))
+    face::put(pair, owner, above, &cut, 0.0, manifold);
+    manifold.remember(&memory);
+    true
 }
 
 /// Overlapping, yet nothing faces the reference face: its deepest vertex alone.

@@ -35,7 +35,7 @@ fn words_of_the_plane_are_unknown_in_space_and_near_ones_are_told() {
 fn words_of_space_are_unknown_in_the_plane() {
     let text = "(format: 1, duration: 1.0, bodies: [(name: \"a\", parts: [Disc(radius: 1.0)])],
         expect: [AngularVelocityY(of: \"a\", at: 1, below: 0)])";
-    let message = AnyLoaded::parse(text, "plane.ron").err().expect("it is refused").to_string();
+    let message = AnyLoaded::parse(text, "plane.ron").expect_err("it is refused").to_string();
     assert!(message.contains("cannot be `AngularVelocityY`"), "{message}");
     assert!(message.contains("AngularVelocity"), "{message}");
 }
