@@ -178,6 +178,7 @@ impl<D: Geometry> Simulation<D> {
             self.world.insert_resource(Beginning::Yes);
             self.begin.run(&mut self.world);
             self.world.insert_resource(Beginning::No);
+            self.check_fault()?;
         }
         loop {
             self.step.run(&mut self.world);
