@@ -55,6 +55,8 @@ pub struct Simulation<D: Geometry = Planar> {
     memories: QueryState<&'static mut ContactMemory<D>>,
     edited: QueryState<(), Edited<D>>,
     user_forces: usize,
+    /// The next body's id, as long as nobody else has had the world in hand.
+    numbered: Option<u64>,
     dim: std::marker::PhantomData<D>,
 }
 
@@ -87,6 +89,7 @@ impl<D: Geometry> Simulation<D> {
             after_step: Vec::new(),
             known: BTreeSet::new(),
             user_forces: 0,
+            numbered: None,
             dim: std::marker::PhantomData,
         }
     }
@@ -100,6 +103,8 @@ impl<D: Geometry> Simulation<D> {
             if nameless {
                 let id = self.next_body_id();
                 self.world.entity_mut(entity).insert(id);
+            } else {
+                self.numbered = None;
             }
             if self.settings().moves_by() == Integrator::Ballistic {
                 self.world.entity_mut(entity).insert(PreviousVelocity::<D::Vector, D::Angular>::default());
@@ -170,6 +175,7 @@ impl<D: Geometry> Simulation<D> {
     }
 
     fn step_here(&mut self) -> Result<(), StepError> {
+        self.numbered = None;
         let rebuilt = *self.world.resource::<Structure>() == Structure::Changed;
         self.prepare()?;
         self.forget_last_step();
@@ -334,12 +340,18 @@ impl<D: Geometry> Simulation<D> {
 
     /// The world, to be edited between steps.
     pub fn world_mut(&mut self) -> &mut World {
+        self.numbered = None;
         &mut self.world
     }
 
+    /// One more than the largest id there is.
     fn next_body_id(&mut self) -> BodyId {
-        let mut taken = self.world.query::<&BodyId>();
-        BodyId(taken.iter(&self.world).map(|id| id.0 + 1).max().unwrap_or(0))
+        let next = self.numbered.unwrap_or_else(|| {
+            let mut taken = self.world.query::<&BodyId>();
+            taken.iter(&self.world).map(|id| id.0 + 1).max().unwrap_or(0)
+        });
+        self.numbered = Some(next + 1);
+        BodyId(next)
     }
 
     fn forget_last_step(&mut self) {
