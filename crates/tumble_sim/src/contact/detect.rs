@@ -20,8 +20,8 @@ use crate::schedule::StepSystems;
 use crate::threads::Threads;
 use crate::{Clock, Settings};
 
-/// Most pairs that may begin to be near in a step: some gigabytes.
-const MOST_NEAR_PAIRS: usize = 1 << 26;
+/// Most pairs that may begin to be near in a step: about a gigabyte.
+const MOST_NEAR_PAIRS: usize = 1 << 24;
 /// Most pairs that may have contacts: about ten gigabytes. A million bodies in a heap have some four million.
 pub const MOST_CONTACTS: usize = 1 << 23;
 
