@@ -5,6 +5,7 @@ use proptest::prelude::{Just, ProptestConfig, Strategy, any, prop_oneof, proptes
 use proptest::{collection, test_runner::RngSeed};
 use tumble_collision::{BroadPhase, PairChanges, Volume};
 use tumble_math::Bounds;
+use tumble_team::Team;
 
 /// Same cases every time.
 fn config(cases: u32) -> ProptestConfig {
@@ -186,4 +187,22 @@ fn volumes_that_are_not_finite_pair_with_nothing_and_do_no_harm() {
     }
     broad_phase.update_pairs(|_, _| true, &mut changes);
     assert_eq!(changes.added, [(1, 2), (4, 5), (7, 8), (10, 11), (13, 14), (16, 17)]);
+}
+
+#[test]
+fn a_crowd_is_refused_and_leaves_the_pairs_as_they_were() {
+    let mut broad_phase = BroadPhase::new();
+    let mut changes = PairChanges::default();
+    broad_phase.insert(0, unit_box(DVec2::ZERO), 0.1);
+    broad_phase.insert(1, unit_box(DVec2::ZERO), 0.1);
+    broad_phase.share_pairs(&Team::alone(), |_, _| true, 1, &mut changes).unwrap();
+    // Ten more in the same place: 65 new pairs; another stands by itself.
+    (2..12).for_each(|id| broad_phase.insert(id, unit_box(DVec2::ZERO), 0.1));
+    broad_phase.insert(12, unit_box(DVec2::new(50.0, 0.0)), 0.1);
+    let crowd = broad_phase.share_pairs(&Team::alone(), |_, _| true, 64, &mut changes).unwrap_err();
+    assert_eq!((crowd.proxy, crowd.of_proxy), (2, 11));
+    assert_eq!(broad_phase.pairs(), [(0, 1)]);
+    assert!(changes.added.is_empty() && changes.removed.is_empty());
+    broad_phase.share_pairs(&Team::alone(), |_, _| true, 65, &mut changes).unwrap();
+    assert_eq!(broad_phase.pairs(), broad_phase.all_pairs(|_, _| true));
 }

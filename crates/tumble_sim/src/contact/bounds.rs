@@ -46,7 +46,7 @@ struct Tight<D: Geometry> {
 }
 
 /// What a thread found.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Found<D: Geometry> {
     /// Parts whose pairs must be looked for again, and the fat volumes of those that left theirs.
     left: Vec<(u32, Option<Volume<D::Vector>>)>,
@@ -90,8 +90,7 @@ impl<D: Geometry> PartBounds<D> {
         self.tight.resize_with(parts, nowhere);
         self.fat.resize(parts, None);
         let tasks = motions.len().div_ceil(BODIES_OF_A_TASK);
-        let nothing = || Found { left: Vec::new(), too_far: Vec::new() };
-        self.tasks.resize_with(tasks.max(self.tasks.len()), nothing);
+        self.tasks.resize_with(tasks.max(self.tasks.len()), Found::default);
         let (mut tight, mut fat) = (&mut self.tight[..], &mut self.fat[..]);
         let known = &*broad;
         let chunks =
