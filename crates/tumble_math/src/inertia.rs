@@ -185,7 +185,7 @@ fn midpoint_rate_in_body(momentum: DVec3, inverse: &SymmetricTensor, first_guess
     const SHORT: f64 = 1e-9;
     let half_step = 0.5 * dt;
     let mut rate = first_guess;
-    // The bound only matters for steps that turn by more than a radian.
+    // The bound only matters for steps that turn by more than two radians.
     for _ in 0..50 {
         let angle = rate * -half_step;
         let squared = angle.dot(angle);
@@ -199,10 +199,11 @@ fn midpoint_rate_in_body(momentum: DVec3, inverse: &SymmetricTensor, first_guess
             du - inverse.apply(turned.cross(moved) * half_step)
         };
         let jacobian = DMat3::from_cols(derivative(DVec3::X), derivative(DVec3::Y), derivative(DVec3::Z));
-        let step = jacobian.inverse() * (inverse.apply(turned) - rate);
-        if !step.is_finite() {
-            break;
-        }
+        // In steps of more than two radians Newton's method may run away; what u is to equal is never longer than I⁻¹ makes of L.
+        let change = inverse.apply(turned) - rate;
+        let newton = jacobian.inverse() * change;
+        let reach = (rate + newton) * half_step;
+        let step = if reach.dot(reach) <= 1.0 { newton } else { change };
         rate += step;
         if step.dot(step) <= SHORT * SHORT * rate.dot(rate) {
             break;

@@ -127,6 +127,14 @@ proptest! {
     }
 
     #[test]
+    fn midpoint_rate_stays_bounded_in_steps_of_many_turns(tensor in tensor(), w in vector3(), dt in 0.1..100.0) {
+        let inverse = tensor.try_inverse().unwrap();
+        let rate = Spatial::midpoint_rate(SpatialRotation::IDENTITY, &tensor, &inverse, w, dt);
+        // Whatever the rotation, no more than I⁻¹ makes of L: the condition number of these tensors is below 1e2.
+        prop_assert!(rate.length() <= 1e2 * w.length(), "{rate} of {w}");
+    }
+
+    #[test]
     fn series_of_turning_meet_the_functions(x in 1e-3..10.0_f64) {
         let (sinc, versinc) = trig::sinc_and_versinc(x * x);
         prop_assert!((sinc - trig::sin(x) / x).abs() < 4e-16, "{sinc}");
