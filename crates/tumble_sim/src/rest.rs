@@ -145,7 +145,7 @@ pub fn settle<D: Geometry>(
     let moves = |body: u32| table.entry(body).kind == BodyKind::Dynamic;
     let mut woken = BTreeSet::new();
     for (_, pair) in &pairs {
-        if pair.response == Response::Sensor || pair.points == 0 {
+        if pair.response == Response::Sensor || !pair.acts {
             continue;
         }
         let [a, b] = pair.bodies;

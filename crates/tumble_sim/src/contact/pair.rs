@@ -40,6 +40,8 @@ pub struct ContactPair {
     pub touching: bool,
     /// Number of its contact points.
     pub(crate) points: u8,
+    /// Whether the next step may reach one of them.
+    pub(crate) acts: bool,
     /// When soft steps solve the pair.
     pub(crate) colour: PairColour,
 }

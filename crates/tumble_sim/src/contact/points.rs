@@ -9,7 +9,7 @@ use tumble_math::Linear;
 
 use super::bounds::PartBounds;
 use super::detect::BodyMotion;
-use super::reuse::REUSE_TOLERANCE;
+use super::reuse::Parts;
 use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, Detection, IN_TABLES};
 use super::{ContactReuse, PointMemory, Touch, TouchPhase};
 use crate::fault::Fault;
@@ -51,7 +51,6 @@ pub fn find_contacts<D: Geometry>(
         bounds: &detection.bounds,
         touch_tolerance,
         keep_tolerance: touch_tolerance.max(KEEP_TOLERANCE * settings.slop()),
-        reuse_tolerance: REUSE_TOLERANCE * settings.length_scale,
         begins: clock.time(),
         time: if *beginning == Beginning::Yes { clock.time() } else { clock.time_after_part() },
         touches,
@@ -88,7 +87,6 @@ struct Look<'a, D: Geometry> {
     bounds: &'a PartBounds<D>,
     touch_tolerance: f64,
     keep_tolerance: f64,
-    reuse_tolerance: f64,
     /// The step's start, and the time to which the contacts belong [s].
     begins: f64,
     time: f64,
@@ -105,6 +103,7 @@ impl<D: Geometry> Look<'_, D> {
         reuse: Option<&mut ContactReuse<D>>,
     ) {
         if !pair.touching && self.bounds.are_apart(pair.colliders.into()) {
+            pair.acts = false;
             if std::mem::take(&mut pair.points) > 0 {
                 *manifold = D::Manifold::default();
                 if let Some(reuse) = reuse {
@@ -116,15 +115,14 @@ impl<D: Geometry> Look<'_, D> {
         let bodies = pair.bodies.map(|body| &self.motions[body as usize]);
         let margin = bodies[0].reach + bodies[1].reach;
         match reuse {
-            Some(reuse) if reuse.holds(bodies, margin, self.reuse_tolerance) => {
-                reuse.carry(manifold, bodies);
-            }
+            Some(reuse) if reuse.holds(bodies, margin) => reuse.carry(manifold, bodies),
             Some(reuse) => {
+                let parts = self.parts(pair);
+                let tolerance = parts.tolerance();
                 // Farther, by what a step may reach farther and by what bodies may come nearer unnoticed.
-                let margin = margin + self.reuse_tolerance;
-                let found = self.find(pair, manifold, margin + 2.0 * self.reuse_tolerance);
-                let extent = |collider: u32| self.colliders[collider as usize].extent();
-                reuse.remember(&found, bodies, extent(pair.colliders[0]).max(extent(pair.colliders[1])), margin);
+                let looked = margin + tolerance;
+                let found = self.find(pair, manifold, looked + 2.0 * tolerance);
+                reuse.remember(&found, bodies, &parts, looked);
                 remember::<D>(manifold, &found, memory);
                 *manifold = found;
             }
@@ -135,21 +133,33 @@ impl<D: Geometry> Look<'_, D> {
             }
         }
         pair.points = D::points(manifold).len() as u8;
-        let (mut touching, mut hopped) = (false, true);
+        let (mut touching, mut hopped, mut near) = (false, true, false);
         for (point, memory) in D::points(manifold).iter().zip(memory.as_mut()) {
             let reach = if memory.touches { self.keep_tolerance } else { self.touch_tolerance };
             let flies = memory.flies && point.separation > -self.touch_tolerance;
             memory.touches = memory.held || point.separation <= reach && !flies;
             memory.flies &= !memory.touches;
             touching |= memory.touches;
+            near |= point.separation <= margin;
             hopped &= std::mem::take(&mut memory.hopped) || !memory.touches;
         }
+        pair.acts = touching || near;
         if touching != pair.touching {
             self.tell(pair, if touching { TouchPhase::Began } else { TouchPhase::Ended }, self.time);
             pair.touching = touching;
         } else if touching && hopped {
             self.tell(pair, TouchPhase::Ended, self.begins);
             self.tell(pair, TouchPhase::Began, self.time);
+        }
+    }
+
+    /// What carrying its points depends on.
+    fn parts(&self, pair: &ContactPair) -> Parts {
+        let colliders = pair.colliders.map(|collider| &self.colliders[collider as usize]);
+        Parts {
+            reaches: colliders.map(|collider| collider.bounding_radius),
+            radii: colliders.map(|collider| D::rounding(&collider.shape)),
+            length_scale: self.settings.length_scale,
         }
     }
 

@@ -1,37 +1,56 @@
 //! Contact points of pairs that hardly moved against each other: carried along instead of found anew.
 //!
-//! In a pile at rest nearly all pairs keep their points for as long as it rests. Each point is kept as two anchors, one on each body,
-//! and the normal in a's frame; where the bodies are now says where the anchors are, and how far apart. The pair is looked at anew
-//! as soon as b's centre or the tips of its axes, seen from a, are farther than a tolerance from where they were: errors never add up.
+//! In a pile at rest nearly all pairs keep their points for as long as it rests, and those of a moving heap for some steps. Each point is kept
+//! as two anchors, one on each body, and the normal in the frame of the body whose face it belongs to; where the bodies are now says where the anchors are, and how far
+//! apart. A corner thus keeps its true height above a face, and so does a ball that rolls on it, whose anchor is its centre. The pair
+//! is looked at anew as soon as the smaller body's centre or its tips, seen from the other one, are farther than a tolerance from where they
+//! were: errors never add up.
+//!
+//! Points are looked for a little farther than a step can reach, so that none is missed until then. While all of them are out of reach, the
+//! pair does not act.
 //!
 //! Only models that soften contacts reuse points: the exact ones find them in every step.
 
 use bevy_ecs::prelude::*;
+use tumble_collision::{ContactKind, CornerOf};
 use tumble_math::{Linear, Matrix, Rotation};
 
 use super::detect::BodyMotion;
 use crate::geometry::Geometry;
 
-/// How far centre and tips may move before the points are found anew [length scales]: the default slop.
-pub(super) const REUSE_TOLERANCE: f64 = 0.005;
+/// How far the smaller body of a pair and its tips may move before the points are found anew, in length scales: four times the default
+/// slop. What a point on a face is off by is of second order in it.
+const TOLERANCE: f64 = 0.02;
+/// The same for round corners on corners, whose normal turns as they move: the default slop.
+const TOLERANCE_OF_ROUND: f64 = 0.005;
+/// The same as a share of the smaller body's reach, for bodies that are small against the length scale [1].
+const SHARE: f64 = 0.1;
 
 /// What soft steps remember of a pair besides its points.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct ContactReuse<D: Geometry> {
-    /// b's centre, seen from a, when points were last found [m].
+    /// Centre of the smaller body, seen from the other one, when points were last found [m].
     centre: D::Vector,
-    /// b's rotation, seen from a, at the same time.
+    /// Its rotation, seen from the other one, at the same time.
     turn: D::Rotation,
-    /// Size of the larger part [m].
+    /// How far it reaches from its centre [m].
     reach: f64,
+    /// Square of how far it may move [m²].
+    tolerance_squared: f64,
     /// Points were looked for up to this separation [m].
     margin: f64,
-    /// Normal in a's frame.
+    /// Normal in the frame of the body that it belongs to.
     normal: D::Vector,
-    /// Each point on a in a's frame, and on b in b's frame [m].
+    /// Each point on a in a's frame, and on b in b's frame, without what the shapes are rounded by [m].
     anchors: D::PerPoint<[D::Vector; 2]>,
+    /// By what the shapes are rounded [m].
+    radii: [f64; 2],
     /// Angular impulse about the normal with which the next step begins [N·m·s].
     pub(super) twist: f32,
+    /// Whether a is the smaller body.
+    a_is_smaller: bool,
+    /// Whether the normal is that of a face of b.
+    normal_of_b: bool,
 }
 
 impl<D: Geometry> Default for ContactReuse<D> {
@@ -40,50 +59,94 @@ impl<D: Geometry> Default for ContactReuse<D> {
             centre: D::Vector::ZERO,
             turn: D::Rotation::default(),
             reach: 0.0,
+            tolerance_squared: 0.0,
             margin: f64::NEG_INFINITY,
             normal: D::Vector::ZERO,
             anchors: D::PerPoint::default(),
+            radii: [0.0; 2],
             twist: 0.0,
+            a_is_smaller: false,
+            normal_of_b: false,
         }
     }
 }
 
+/// What carrying the points of a pair depends on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parts {
+    /// How far the parts reach from their bodies' centres of mass; infinite for what has no bounds [m].
+    pub(super) reaches: [f64; 2],
+    /// By what they are rounded [m].
+    pub(super) radii: [f64; 2],
+    /// Unit of the tolerances [m].
+    pub(super) length_scale: f64,
+}
+
+impl Parts {
+    /// How far the smaller part reaches [m].
+    fn reach(&self) -> f64 {
+        self.reaches[0].min(self.reaches[1])
+    }
+
+    /// How far it may move before points are found anew [m].
+    pub(super) fn tolerance(&self) -> f64 {
+        (TOLERANCE * self.length_scale).min(SHARE * self.reach())
+    }
+
+    /// The same for round corners on corners [m].
+    fn tolerance_of_round(&self) -> f64 {
+        self.tolerance().min(TOLERANCE_OF_ROUND * self.length_scale)
+    }
+}
+
 impl<D: Geometry> ContactReuse<D> {
-    /// Remembers points found where the bodies are, up to a margin; `reach` is the size of the larger part [m].
-    pub(super) fn remember(&mut self, found: &D::Manifold, [a, b]: [&BodyMotion<D>; 2], reach: f64, margin: f64) {
-        let normal = D::normal(found);
-        for (anchors, point) in self.anchors.as_mut().iter_mut().zip(D::points(found)) {
-            let half = normal * (0.5 * point.separation);
-            *anchors = [a.in_body(point.point - half), b.in_body(point.point + half)];
+    /// Remembers points found where the bodies are, up to a margin [m].
+    pub(super) fn remember(&mut self, found: &D::Manifold, [a, b]: [&BodyMotion<D>; 2], parts: &Parts, margin: f64) {
+        let (points, normal) = (D::points(found), D::normal(found));
+        for (anchors, point) in self.anchors.as_mut().iter_mut().zip(points) {
+            let [to_a, to_b] = parts.radii.map(|radius| normal * (0.5 * point.separation + radius));
+            *anchors = [a.in_body(point.point - to_a), b.in_body(point.point + to_b)];
         }
-        let twist = if D::points(found).is_empty() { 0.0 } else { self.twist };
+        let is_round = |kind: ContactKind| matches!(kind, ContactKind::RoundVertex | ContactKind::RoundRound);
+        let round = points.iter().any(|point| is_round(point.kind));
+        let tolerance = if round { parts.tolerance_of_round() } else { parts.tolerance() };
+        let a_is_smaller = parts.reaches[0] < parts.reaches[1];
+        let [other, smaller] = if a_is_smaller { [b, a] } else { [a, b] };
+        // Corners of a lie on a face of b.
+        let normal_of_b = !points.is_empty() && points.iter().all(|point| point.feature.corner() == CornerOf::A);
         *self = Self {
-            centre: a.in_body(b.pose.position),
-            turn: b.pose.rotation.seen_from(&a.pose.rotation),
-            reach,
+            centre: other.in_body(smaller.pose.position),
+            turn: smaller.pose.rotation.seen_from(&other.pose.rotation),
+            reach: parts.reach(),
+            tolerance_squared: tolerance * tolerance,
             margin,
-            normal: a.axes.apply_transposed(normal),
+            normal: if normal_of_b { b } else { a }.axes.apply_transposed(normal),
             anchors: self.anchors,
-            twist,
+            radii: parts.radii,
+            twist: if points.is_empty() { 0.0 } else { self.twist },
+            a_is_smaller,
+            normal_of_b,
         };
     }
 
     /// Whether they are still good: the bodies have hardly moved against each other, and nobody looks farther.
     #[inline]
-    pub(super) fn holds(&self, [a, b]: [&BodyMotion<D>; 2], margin: f64, tolerance: f64) -> bool {
-        let moved = a.in_body(b.pose.position) - self.centre;
-        let strayed = b.pose.rotation.strayed(&a.pose.rotation, &self.turn);
-        let squared = tolerance * tolerance;
+    pub(super) fn holds(&self, [a, b]: [&BodyMotion<D>; 2], margin: f64) -> bool {
+        let [other, smaller] = if self.a_is_smaller { [b, a] } else { [a, b] };
+        let moved = other.in_body(smaller.pose.position) - self.centre;
+        let strayed = smaller.pose.rotation.strayed(&other.pose.rotation, &self.turn);
+        let squared = self.tolerance_squared;
         margin <= self.margin && moved.dot(moved) <= squared && self.reach * self.reach * strayed <= squared
     }
 
     /// Carries the points to where the bodies are now.
     #[inline]
     pub(super) fn carry(&self, manifold: &mut D::Manifold, [a, b]: [&BodyMotion<D>; 2]) {
-        let normal = a.axes.apply(self.normal);
+        let normal = if self.normal_of_b { b } else { a }.axes.apply(self.normal);
+        let [rounded_a, rounded_b] = self.radii.map(|radius| normal * radius);
         D::carry(manifold, normal, |number| {
             let [on_a, on_b] = self.anchors.as_ref()[number];
-            let (on_a, on_b) = (a.in_world(on_a), b.in_world(on_b));
+            let (on_a, on_b) = (a.in_world(on_a) + rounded_a, b.in_world(on_b) - rounded_b);
             ((on_a + on_b) * 0.5, normal.dot(on_b - on_a))
         });
     }

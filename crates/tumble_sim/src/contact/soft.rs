@@ -140,7 +140,7 @@ pub fn take_soft_steps<D: Geometry>(
     let mut row = 0;
     for (_, pairs, ..) in pairs.contiguous_iter_mut().expect(IN_TABLES) {
         for pair in ContiguousMut::split(pairs).0 {
-            if pair.points > 0 && pair.response == Response::Solid {
+            if pair.acts && pair.response == Response::Solid {
                 let ContactPair { colliders, bodies, points, colour, .. } = *pair;
                 acting.push(Acting { row, parts: colliders, bodies, points, colour });
             } else if model.colours().know(pair.colour) {

@@ -73,7 +73,7 @@ pub(crate) fn renumber_pairs<D: Geometry>(world: &mut World) {
     let mut pairs = Vec::new();
     for (entity, pair) in renumbered {
         if let Some(mut known) = world.get_mut::<ContactPair>(entity) {
-            *known = ContactPair { touching: known.touching, points: known.points, ..pair };
+            *known = ContactPair { touching: known.touching, points: known.points, acts: known.acts, ..pair };
         }
         // Their shapes may be others now.
         if let Some(mut reuse) = world.get_mut::<ContactReuse<D>>(entity) {
@@ -198,6 +198,7 @@ fn new_pair<D: Geometry>(
         response: if sensor { Response::Sensor } else { Response::Solid },
         touching: false,
         points: 0,
+        acts: false,
         colour: PairColour::NONE,
     }
 }
