@@ -34,6 +34,9 @@ pub struct FilterSettings {
     pub tolerance: f64,
 }
 
+/// Slips of so many tolerances are motion [1].
+const SLIP_TOLERANCES: f64 = 10.0;
+
 /// What a sweep needs of a row, and no more.
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedRow<D: Dim> {
@@ -95,13 +98,15 @@ fn filter<D: Dim>(
         row.apply(bodies, row.impulse);
     }
 
-    let first = sweep_until_still(bodies, joints, prepared, settings);
+    let Swept { report: first, error } = sweep_until_still(bodies, joints, prepared, settings);
+    // A slip that more sweeps would take away is none.
+    let slip_above = SLIP_TOLERANCES * settings.tolerance.max(error);
     let mut any_changed = false;
     for (row, prepared) in rows.iter_mut().zip(prepared.iter_mut()) {
         let passed_through_rest = tangential(prepared.impulse).dot(tangential(row.impulse)) < 0.0;
         row.impulse = prepared.impulse;
         let slip = match row.slip {
-            Slip::Sticking if slips(row, bodies, row.surface.static_friction, settings.tolerance) => Slip::Sliding,
+            Slip::Sticking if slips(row, bodies, row.surface.static_friction, slip_above) => Slip::Sliding,
             Slip::Sliding if passed_through_rest => Slip::Sticking,
             unchanged => unchanged,
         };
@@ -111,10 +116,12 @@ fn filter<D: Dim>(
     }
     // The second stage begins near its answer.
     let again = FilterSettings { iterations: settings.iterations.div_ceil(2), ..*settings };
-    let second = any_changed.then(|| sweep_until_still(bodies, joints, prepared, &again));
+    let second = any_changed.then(|| sweep_until_still(bodies, joints, prepared, &again).report);
     for (row, prepared) in rows.iter_mut().zip(prepared.iter()) {
         row.impulse = prepared.impulse;
-        if row.slip == Slip::Sliding && !slips(row, bodies, row.surface.kinetic_friction, settings.tolerance) {
+        if row.slip == Slip::Sliding
+            && !slips(row, bodies, row.surface.kinetic_friction, SLIP_TOLERANCES * settings.tolerance)
+        {
             row.slip = Slip::Sticking;
         }
     }
@@ -132,11 +139,18 @@ fn friction<D: Dim>(row: &ContactRow<D>) -> f64 {
 }
 
 /// Whether friction is used up and the point slips all the same.
-fn slips<D: Dim>(row: &ContactRow<D>, bodies: &[SolverBody<D>], friction: f64, tolerance: f64) -> bool {
+fn slips<D: Dim>(row: &ContactRow<D>, bodies: &[SolverBody<D>], friction: f64, slip_above: f64) -> bool {
     let bound = friction * row.impulse[0];
     // Round-off of the projection onto the bound, not a physical allowance.
     let used_up = tangential(row.impulse).length() >= bound * (1.0 - 1e-12);
-    used_up && tangential(row.relative_velocity(bodies)).length() > 10.0 * tolerance
+    used_up && tangential(row.relative_velocity(bodies)).length() > slip_above
+}
+
+/// What sweeps did.
+struct Swept {
+    report: Report,
+    /// By how much speeds may still be off, were the last changes the terms of a geometric series [m/s].
+    error: f64,
 }
 
 fn sweep_until_still<D: Dim>(
@@ -144,14 +158,15 @@ fn sweep_until_still<D: Dim>(
     joints: &mut Option<Joints<'_, D>>,
     prepared: &mut [PreparedRow<D>],
     settings: &FilterSettings,
-) -> Report {
-    let mut report = Report::default();
+) -> Swept {
+    let (mut report, mut before) = (Report::default(), f64::INFINITY);
     if let Some(joints) = joints {
         joints.block.stop(bodies, joints.rows);
     }
     while report.iterations < settings.iterations {
         let backwards = report.iterations % 2 == 1;
         report.iterations += 1;
+        before = report.residual;
         let residual = |worst: f64, row: &mut PreparedRow<D>| worst.max(row.solve(bodies));
         report.residual = match backwards {
             false => prepared.iter_mut().fold(0.0, residual),
@@ -161,11 +176,13 @@ fn sweep_until_still<D: Dim>(
             joints.block.stop(bodies, joints.rows);
         }
         if report.residual <= settings.tolerance {
-            return report;
+            return Swept { report, error: 0.0 };
         }
     }
     report.ending = Ending::NotConverged;
-    report
+    let error =
+        if report.residual < before { report.residual / (1.0 - report.residual / before) } else { f64::INFINITY };
+    Swept { report, error }
 }
 
 impl<D: Dim> PreparedRow<D> {

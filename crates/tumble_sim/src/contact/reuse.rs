@@ -12,7 +12,7 @@
 //! Only models that soften contacts reuse points: the exact ones find them in every step.
 
 use bevy_ecs::prelude::*;
-use tumble_collision::{ContactKind, CornerOf};
+use tumble_collision::{ContactKind, ContactPoint, CornerOf};
 use tumble_math::{Linear, Matrix, Rotation};
 
 use super::detect::BodyMotion;
@@ -51,6 +51,8 @@ pub struct ContactReuse<D: Geometry> {
     a_is_smaller: bool,
     /// Whether the normal is that of a face of b.
     normal_of_b: bool,
+    /// The points that are corners of a, and of b, on a face of the other, a bit for each: they stay with the corner.
+    corners: [u8; 2],
 }
 
 impl<D: Geometry> Default for ContactReuse<D> {
@@ -67,6 +69,7 @@ impl<D: Geometry> Default for ContactReuse<D> {
             twist: 0.0,
             a_is_smaller: false,
             normal_of_b: false,
+            corners: [0; 2],
         }
     }
 }
@@ -112,8 +115,11 @@ impl<D: Geometry> ContactReuse<D> {
         let tolerance = if round { parts.tolerance_of_round() } else { parts.tolerance() };
         let a_is_smaller = parts.reaches[0] < parts.reaches[1];
         let [other, smaller] = if a_is_smaller { [b, a] } else { [a, b] };
-        // Corners of a lie on a face of b.
-        let normal_of_b = !points.is_empty() && points.iter().all(|point| point.feature.corner() == CornerOf::A);
+        let corners = [CornerOf::A, CornerOf::B].map(|owner| {
+            let is_its = |point: &ContactPoint<D::Vector>| u8::from(point.feature.corner() == owner);
+            points.iter().rev().fold(0, |bits, point| bits << 1 | is_its(point))
+        });
+        let normal_of_b = !points.is_empty() && corners[0].count_ones() as usize == points.len();
         *self = Self {
             centre: other.in_body(smaller.pose.position),
             turn: smaller.pose.rotation.seen_from(&other.pose.rotation),
@@ -126,6 +132,7 @@ impl<D: Geometry> ContactReuse<D> {
             twist: if points.is_empty() { 0.0 } else { self.twist },
             a_is_smaller,
             normal_of_b,
+            corners,
         };
     }
 
@@ -147,7 +154,14 @@ impl<D: Geometry> ContactReuse<D> {
         D::carry(manifold, normal, |number| {
             let [on_a, on_b] = self.anchors.as_ref()[number];
             let (on_a, on_b) = (a.in_world(on_a) + rounded_a, b.in_world(on_b) - rounded_b);
-            ((on_a + on_b) * 0.5, normal.dot(on_b - on_a))
+            let separation = normal.dot(on_b - on_a);
+            let [of_a, of_b] = self.corners.map(|corners| corners >> number & 1 == 1);
+            let point = match (of_a, of_b) {
+                (true, _) => on_a + normal * (0.5 * separation),
+                (_, true) => on_b - normal * (0.5 * separation),
+                _ => (on_a + on_b) * 0.5,
+            };
+            (point, separation)
         });
     }
 }
