@@ -101,7 +101,7 @@ fn filter<D: Dim>(
     let Swept { report: first, error } = sweep_until_still(bodies, joints, prepared, settings);
     // A slip that more sweeps would take away is none.
     let slip_above = SLIP_TOLERANCES * settings.tolerance.max(error);
-    let mut any_changed = false;
+    let (mut any_changed, mut any_doubt) = (false, false);
     for (row, prepared) in rows.iter_mut().zip(prepared.iter_mut()) {
         let passed_through_rest = tangential(prepared.impulse).dot(tangential(row.impulse)) < 0.0;
         row.impulse = prepared.impulse;
@@ -111,12 +111,15 @@ fn filter<D: Dim>(
             unchanged => unchanged,
         };
         any_changed |= slip != row.slip;
+        any_doubt |= error > 0.0
+            && slip == Slip::Sticking
+            && slips(row, bodies, row.surface.static_friction, SLIP_TOLERANCES * settings.tolerance);
         row.slip = slip;
         prepared.friction = friction(row);
     }
     // The second stage begins near its answer.
     let again = FilterSettings { iterations: settings.iterations.div_ceil(2), ..*settings };
-    let second = any_changed.then(|| sweep_until_still(bodies, joints, prepared, &again).report);
+    let second = (any_changed || any_doubt).then(|| sweep_until_still(bodies, joints, prepared, &again).report);
     for (row, prepared) in rows.iter_mut().zip(prepared.iter()) {
         row.impulse = prepared.impulse;
         if row.slip == Slip::Sliding

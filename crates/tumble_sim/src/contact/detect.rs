@@ -76,6 +76,11 @@ impl<D: Geometry> Default for BodyMotion<D> {
 }
 
 impl<D: Geometry> BodyMotion<D> {
+    /// A body at rest in a pose.
+    pub fn at_rest(pose: Pose<D>) -> Self {
+        Self { pose, axes: D::matrix(&pose.rotation), ..Self::default() }
+    }
+
     /// A point of the world in the body's frame [m].
     #[inline]
     pub(super) fn in_body(&self, point: D::Vector) -> D::Vector {

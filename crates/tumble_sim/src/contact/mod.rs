@@ -34,7 +34,7 @@ pub use penalty::{PreviousEnds, apply_lecture_floor, apply_penalty_forces};
 pub use points::find_contacts;
 pub use problem::{ContactProblem, ContactReport};
 pub use resting::{RestingModel, apply_resting_forces};
-pub use reuse::ContactReuse;
+pub use reuse::{CarriedParts, ContactReuse};
 pub use soft::{SoftModel, mend_soft_joints, take_soft_steps};
 pub use sync::sync_pairs;
 pub use touch::{Touch, TouchPhase};

@@ -7,9 +7,9 @@ use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::prelude::*;
 use tumble_math::Linear;
 
+use super::CarriedParts;
 use super::bounds::PartBounds;
 use super::detect::BodyMotion;
-use super::reuse::Parts;
 use super::{Collider, Colliders, ContactManifold, ContactMemory, ContactPair, Detection, IN_TABLES};
 use super::{ContactReuse, PointMemory, Touch, TouchPhase};
 use crate::fault::Fault;
@@ -154,9 +154,9 @@ impl<D: Geometry> Look<'_, D> {
     }
 
     /// What carrying its points depends on.
-    fn parts(&self, pair: &ContactPair) -> Parts {
+    fn parts(&self, pair: &ContactPair) -> CarriedParts {
         let colliders = pair.colliders.map(|collider| &self.colliders[collider as usize]);
-        Parts {
+        CarriedParts {
             reaches: colliders.map(|collider| collider.bounding_radius),
             radii: colliders.map(|collider| D::rounding(&collider.shape)),
             length_scale: self.settings.length_scale,

@@ -76,23 +76,23 @@ impl<D: Geometry> Default for ContactReuse<D> {
 
 /// What carrying the points of a pair depends on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Parts {
+pub struct CarriedParts {
     /// How far the parts reach from their bodies' centres of mass; infinite for what has no bounds [m].
-    pub(super) reaches: [f64; 2],
+    pub reaches: [f64; 2],
     /// By what they are rounded [m].
-    pub(super) radii: [f64; 2],
+    pub radii: [f64; 2],
     /// Unit of the tolerances [m].
-    pub(super) length_scale: f64,
+    pub length_scale: f64,
 }
 
-impl Parts {
+impl CarriedParts {
     /// How far the smaller part reaches [m].
     fn reach(&self) -> f64 {
         self.reaches[0].min(self.reaches[1])
     }
 
     /// How far it may move before points are found anew [m].
-    pub(super) fn tolerance(&self) -> f64 {
+    pub fn tolerance(&self) -> f64 {
         (TOLERANCE * self.length_scale).min(SHARE * self.reach())
     }
 
@@ -104,7 +104,7 @@ impl Parts {
 
 impl<D: Geometry> ContactReuse<D> {
     /// Remembers points found where the bodies are, up to a margin [m].
-    pub(super) fn remember(&mut self, found: &D::Manifold, [a, b]: [&BodyMotion<D>; 2], parts: &Parts, margin: f64) {
+    pub fn remember(&mut self, found: &D::Manifold, [a, b]: [&BodyMotion<D>; 2], parts: &CarriedParts, margin: f64) {
         let (points, normal) = (D::points(found), D::normal(found));
         for (anchors, point) in self.anchors.as_mut().iter_mut().zip(points) {
             let [to_a, to_b] = parts.radii.map(|radius| normal * (0.5 * point.separation + radius));
@@ -138,7 +138,7 @@ impl<D: Geometry> ContactReuse<D> {
 
     /// Whether they are still good: the bodies have hardly moved against each other, and nobody looks farther.
     #[inline]
-    pub(super) fn holds(&self, [a, b]: [&BodyMotion<D>; 2], margin: f64) -> bool {
+    pub fn holds(&self, [a, b]: [&BodyMotion<D>; 2], margin: f64) -> bool {
         let [other, smaller] = if self.a_is_smaller { [b, a] } else { [a, b] };
         let moved = other.in_body(smaller.pose.position) - self.centre;
         let strayed = smaller.pose.rotation.strayed(&other.pose.rotation, &self.turn);
@@ -148,7 +148,7 @@ impl<D: Geometry> ContactReuse<D> {
 
     /// Carries the points to where the bodies are now.
     #[inline]
-    pub(super) fn carry(&self, manifold: &mut D::Manifold, [a, b]: [&BodyMotion<D>; 2]) {
+    pub fn carry(&self, manifold: &mut D::Manifold, [a, b]: [&BodyMotion<D>; 2]) {
         let normal = if self.normal_of_b { b } else { a }.axes.apply(self.normal);
         let [rounded_a, rounded_b] = self.radii.map(|radius| normal * radius);
         D::carry(manifold, normal, |number| {
