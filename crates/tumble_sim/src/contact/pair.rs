@@ -44,6 +44,8 @@ pub struct ContactPair {
     pub(crate) acts: bool,
     /// When soft steps solve the pair.
     pub(crate) colour: PairColour,
+    /// Angular impulse about the normal with which the next soft step begins [N·m·s].
+    pub(crate) twist: f32,
 }
 
 /// Where the two parts touch or nearly do.

@@ -106,6 +106,7 @@ impl<D: Geometry> Look<'_, D> {
             pair.acts = false;
             if std::mem::take(&mut pair.points) > 0 {
                 *manifold = D::Manifold::default();
+                pair.twist = 0.0;
                 if let Some(reuse) = reuse {
                     *reuse = ContactReuse::default();
                 }
@@ -123,6 +124,9 @@ impl<D: Geometry> Look<'_, D> {
                 let looked = margin + tolerance;
                 let found = self.find(pair, manifold, looked + 2.0 * tolerance);
                 reuse.remember(&found, bodies, &parts, looked);
+                if D::points(&found).is_empty() {
+                    pair.twist = 0.0;
+                }
                 remember::<D>(manifold, &found, memory);
                 *manifold = found;
             }

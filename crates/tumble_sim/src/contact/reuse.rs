@@ -45,8 +45,6 @@ pub struct ContactReuse<D: Geometry> {
     anchors: D::PerPoint<[D::Vector; 2]>,
     /// By what the shapes are rounded [m].
     radii: [f64; 2],
-    /// Angular impulse about the normal with which the next step begins [N·m·s].
-    pub(super) twist: f32,
     /// Whether a is the smaller body.
     a_is_smaller: bool,
     /// Whether the normal is that of a face of b.
@@ -66,7 +64,6 @@ impl<D: Geometry> Default for ContactReuse<D> {
             normal: D::Vector::ZERO,
             anchors: D::PerPoint::default(),
             radii: [0.0; 2],
-            twist: 0.0,
             a_is_smaller: false,
             normal_of_b: false,
             corners: [0; 2],
@@ -129,7 +126,6 @@ impl<D: Geometry> ContactReuse<D> {
             normal: if normal_of_b { b } else { a }.axes.apply_transposed(normal),
             anchors: self.anchors,
             radii: parts.radii,
-            twist: if points.is_empty() { 0.0 } else { self.twist },
             a_is_smaller,
             normal_of_b,
             corners,

@@ -10,7 +10,7 @@ use tumble_solver::{ContactRow, SolverBody};
 use tumble_team::Team;
 
 use super::problem::{BodyQuery, ContactProblem, ContactReport, RowSource};
-use super::{ContactManifold, ContactMemory, ContactPair, ContactReuse, Detection, IN_TABLES, PositionCorrections};
+use super::{ContactManifold, ContactMemory, ContactPair, Detection, IN_TABLES, PositionCorrections};
 use crate::body::{
     Acceleration, AngularAcceleration, AngularVelocity, BodyIndex, BodyTable, InverseInertia, InverseMass,
     LinearVelocity, Orientation, Position,
@@ -72,13 +72,7 @@ const REST_STEPS: f64 = 2.0;
 type SoftPairs<'w, 's, D> = Query<
     'w,
     's,
-    (
-        Entity,
-        &'static mut ContactPair,
-        &'static ContactManifold<D>,
-        &'static mut ContactMemory<D>,
-        &'static mut ContactReuse<D>,
-    ),
+    (Entity, &'static mut ContactPair, &'static ContactManifold<D>, &'static mut ContactMemory<D>),
     Awake,
 >;
 
@@ -242,9 +236,8 @@ fn fill_places<D: Geometry>(
     settings: &Settings<D>,
 ) {
     let tables = pairs.contiguous_iter().expect(IN_TABLES);
-    let all =
-        tables.flat_map(|(_, pairs, manifolds, memory, reuse)| pairs.iter().zip(manifolds).zip(memory).zip(reuse));
-    for (number, (((pair, manifold), memory), reuse)) in all.enumerate() {
+    let all = tables.flat_map(|(_, pairs, manifolds, memory)| pairs.iter().zip(manifolds).zip(memory));
+    for (number, ((pair, manifold), memory)) in all.enumerate() {
         if !places.want(number) {
             continue;
         }
@@ -263,30 +256,29 @@ fn fill_places<D: Geometry>(
         }
         let (normal, surface, points) = (D::normal(&manifold.0), pair.surface, &points.as_ref()[..found.len()]);
         let rest_speed = 2.0 * REST_STEPS * settings.rest_speed(normal);
-        places.fill(number, &SoftPair { a, b, normal, surface, rest_speed, twist: reuse.twist, points });
+        places.fill(number, &SoftPair { a, b, normal, surface, rest_speed, twist: pair.twist, points });
     }
 }
 
 /// Hands what the step did to its contacts back to them, and notes which bodies were pushed.
 fn remember_outcomes<D: Geometry>(solved: &SoftStep<D>, team: &Team, pairs: &mut SoftPairs<D>, pushed: &[AtomicBool]) {
     let mut first = 0;
-    for (_, pairs, manifolds, memories, reuses) in pairs.contiguous_iter_mut().expect(IN_TABLES) {
+    for (_, pairs, manifolds, memories) in pairs.contiguous_iter_mut().expect(IN_TABLES) {
         let (pairs, _) = ContiguousMut::split(pairs);
         let (memories, _) = ContiguousMut::split(memories);
-        let (reuses, _) = ContiguousMut::split(reuses);
         let count = pairs.len();
         let chunks = pairs.chunks_mut(PAIRS_OF_A_TASK).zip(manifolds.chunks(PAIRS_OF_A_TASK));
-        let chunks = chunks.zip(memories.chunks_mut(PAIRS_OF_A_TASK)).zip(reuses.chunks_mut(PAIRS_OF_A_TASK));
-        team.share(chunks.enumerate(), |(chunk, (((pairs, manifolds), memories), reuses))| {
-            let pairs = pairs.iter_mut().zip(manifolds).zip(memories).zip(reuses);
-            for (k, (((pair, manifold), memory), reuse)) in pairs.enumerate() {
+        let chunks = chunks.zip(memories.chunks_mut(PAIRS_OF_A_TASK));
+        team.share(chunks.enumerate(), |(chunk, ((pairs, manifolds), memories))| {
+            let pairs = pairs.iter_mut().zip(manifolds).zip(memories);
+            for (k, ((pair, manifold), memory)) in pairs.enumerate() {
                 let number = first + chunk * PAIRS_OF_A_TASK + k;
                 if !solved.acts(number) {
                     continue;
                 }
                 let outcome = solved.outcome(number);
                 pair.colour = solved.colour(number);
-                reuse.twist = outcome.twist();
+                pair.twist = outcome.twist();
                 let normal = D::normal(&manifold.0);
                 let twist = Twisting::of(&outcome, manifold);
                 let mut touched = false;
@@ -344,7 +336,7 @@ fn note_rows<D: Geometry>(
     pairs: &SoftPairs<D>,
     substep: f64,
 ) {
-    for (number, (entity, pair, manifold, memory, _)) in pairs.iter().enumerate() {
+    for (number, (entity, pair, manifold, memory)) in pairs.iter().enumerate() {
         if !solved.acts(number) {
             continue;
         }

@@ -200,5 +200,6 @@ fn new_pair<D: Geometry>(
         points: 0,
         acts: false,
         colour: PairColour::NONE,
+        twist: 0.0,
     }
 }
