@@ -116,6 +116,7 @@ fn measure(name: &str, case: &Case, noise: &mut Noise) {
     let parts = CarriedParts {
         reaches: [reach(&case.a.own), reach(&case.b.own)],
         radii: [case.a.own.radius(), case.b.own.radius()],
+        roll: matches!(case.a.own, SpatialShape::Cylinder(_)),
         length_scale: 1.0,
     };
     let carries: Vec<ContactReuse<Spatial>> = (case.poses.iter().zip(&before))

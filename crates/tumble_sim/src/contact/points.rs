@@ -163,6 +163,7 @@ impl<D: Geometry> Look<'_, D> {
         CarriedParts {
             reaches: colliders.map(|collider| collider.bounding_radius),
             radii: colliders.map(|collider| D::rounding(&collider.shape)),
+            roll: colliders.iter().any(|part| D::round_axis(&part.shape).is_some()),
             length_scale: self.settings.length_scale,
         }
     }

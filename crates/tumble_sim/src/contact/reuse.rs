@@ -21,7 +21,7 @@ use crate::geometry::Geometry;
 /// How far the smaller body of a pair and its tips may move before the points are found anew, in length scales: four times the default
 /// slop. What a point on a face is off by is of second order in it.
 const TOLERANCE: f64 = 0.02;
-/// The same for round corners on corners, whose normal turns as they move: the default slop.
+/// The same for round corners on corners, whose normal turns as they move, and for what rolls off its points: the default slop.
 const TOLERANCE_OF_ROUND: f64 = 0.005;
 /// The same as a share of the smaller body's reach, for bodies that are small against the length scale [1].
 const SHARE: f64 = 0.1;
@@ -78,6 +78,8 @@ pub struct CarriedParts {
     pub reaches: [f64; 2],
     /// By what they are rounded [m].
     pub radii: [f64; 2],
+    /// Whether one of them rolls off the points that it touches with: a cylinder or cone, which has no centre to carry.
+    pub roll: bool,
     /// Unit of the tolerances [m].
     pub length_scale: f64,
 }
@@ -108,7 +110,7 @@ impl<D: Geometry> ContactReuse<D> {
             *anchors = [a.in_body(point.point - to_a), b.in_body(point.point + to_b)];
         }
         let is_round = |kind: ContactKind| matches!(kind, ContactKind::RoundVertex | ContactKind::RoundRound);
-        let round = points.iter().any(|point| is_round(point.kind));
+        let round = parts.roll || points.iter().any(|point| is_round(point.kind));
         let tolerance = if round { parts.tolerance_of_round() } else { parts.tolerance() };
         let a_is_smaller = parts.reaches[0] < parts.reaches[1];
         let [other, smaller] = if a_is_smaller { [b, a] } else { [a, b] };

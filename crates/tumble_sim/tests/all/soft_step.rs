@@ -7,10 +7,10 @@ use crate::support::{
 use bevy_ecs::name::Name;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use tumble_math::{Spatial, SpatialRotation};
-use tumble_shape::{Capsule, Cuboid, HalfSpace, SpatialShape, Sphere};
+use tumble_shape::{Capsule, Cuboid, Cylinder, HalfSpace, SpatialShape, Sphere};
 use tumble_sim::{
-    Amount, Anchor, BodyKind, ContactModel, Joint, JointKind, Orientation, Part, Position, Settings, Simulation,
-    SoftModel, StepError,
+    Amount, Anchor, AngularVelocity, BodyKind, ContactModel, Joint, JointKind, LinearVelocity, Orientation, Part,
+    Position, Settings, Simulation, SoftModel, StepError,
 };
 use tumble_solver::Surface;
 use tumble_solver::soft_step::{SoftSettings, Width};
@@ -258,6 +258,39 @@ fn a_heap_in_space_comes_to_rest_and_has_the_same_bits_at_any_width() {
         if k % 3 == 1 {
             assert!(body.velocity().length() < 0.1, "body-{k:02} moves at {}", body.velocity());
         }
+    }
+}
+
+#[test]
+fn what_rolls_keeps_rolling() {
+    // Points that lag behind the body would brake it: 2 cm behind a radius of 0.2 m, by a tenth of g.
+    let radius = 0.2;
+    let shapes: [SpatialShape; 3] = [
+        Sphere::try_new(DVec3::ZERO, radius).unwrap().into(),
+        Capsule::try_new(DVec3::Z * -0.3, DVec3::Z * 0.3, radius).unwrap().into(),
+        Cylinder::try_new(DVec3::Z * -0.3, DVec3::Z * 0.3, radius).unwrap().into(),
+    ];
+    let settings = Settings { contact: ContactModel::SoftStep, gravity: dvec3(0.0, -G, 0.0), ..Settings::weightless() };
+    let mut simulation = Simulation::<Spatial>::with_settings(settings);
+    simulation.materials_mut().set("default", rough(0.5, 0.5));
+    let ground = simulation.spawn((Name::new("ground"), Position(DVec3::ZERO), BodyKind::Static));
+    let half_space = HalfSpace::try_new(DVec3::Y, 0.0).unwrap();
+    simulation.attach(ground, Part::new(SpatialShape::from(half_space), Amount::Density(0.0)));
+    for (k, shape) in (0..).zip(shapes) {
+        let body = simulation.spawn((
+            Name::new(format!("body-{k}")),
+            Position(dvec3(0.0, radius, 2.0 * f64::from(k))),
+            LinearVelocity(dvec3(2.0, 0.0, 0.0)),
+            AngularVelocity(dvec3(0.0, 0.0, -2.0 / radius)),
+        ));
+        simulation.attach(body, Part::new(shape, Amount::Mass(1.0)));
+    }
+    simulation.run_for(2.0).unwrap();
+    for (k, within) in [1e-3, 1e-3, 0.02].into_iter().enumerate() {
+        let body = simulation.body(&format!("body-{k}")).unwrap();
+        let (v, w) = (body.velocity(), body.angular_velocity());
+        assert!((v - dvec3(2.0, 0.0, 0.0)).length() < 2.0 * within, "body-{k} rolls at {v}");
+        assert!((w.z * radius + v.x).abs() < 2.0 * within, "body-{k} slips: {w}");
     }
 }
 
